@@ -13,19 +13,19 @@ namespace giveway::sim {
 
 // Fields that every tick reads come first, next to each other.
 struct Body {
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   bool joined = false;
   bool present = false;  // joined and not removed: can be hit and is sensed
   bool obeyed = false;   // this tick followed `command`; false: braked by the world itself
   Pose world_from_body;
-  KnownHeading heading;  // recently; follow `world_from_body` before use
-  WheelSpeeds wheels;    // at the end of the tick; standstill after a contact
-  WheelSpeeds encoders;  // counted over the whole tick; without encoder noise and slip, the
-                         // constant speeds that explain its motion exactly
-  WheelAngles counted;   // by the encoders, since it was put on its start pose
-  WheelSpeeds ground;    // the constant speeds that do explain it, slip included
-  MotorCommand command;  // the last one taken; tick kNoTick before the first
-  VehicleProfile profile;
+  CachedHeading heading;  // recently; follow `world_from_body` before use
+  WheelSpeeds wheels;     // at the end of the tick; standstill after a contact
+  WheelSpeeds encoders;   // counted over the whole tick; without encoder noise and slip, the
+                          // constant speeds that explain its motion exactly
+  WheelAngles counted;    // by the encoders, since it was put on its start pose
+  WheelSpeeds ground;     // the constant speeds that do explain it, slip included
+  MotorCommand command;   // the last one taken; tick kNoTick before the first
+  RobotModel profile;
   SonarState sonar;
   Goal goal;
   Pose start_world;
@@ -37,10 +37,10 @@ enum class Touched : std::uint8_t { kVehicle, kWall, kObstacle, kDoor };
 
 // Two shells, or a shell and something that is not a vehicle, that started to touch in this tick.
 struct Contact {
-  VehicleId vehicle = kNobody;
-  VehicleId other = kNobody;  // kNobody: no vehicle
-  Vec2 position_world;        // of the vehicle's axle centre
-  Vec2 other_position_world;  // of the other's; of the touched point where it is no vehicle
+  VehicleId vehicle = kNoVehicle;
+  VehicleId other = kNoVehicle;  // kNoVehicle: no vehicle
+  Vec2 position_world;           // of the vehicle's axle centre
+  Vec2 other_position_world;     // of the other's; of the touched point where it is no vehicle
   Touched touched = Touched::kVehicle;
 };
 

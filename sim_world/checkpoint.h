@@ -8,14 +8,14 @@
 #include "services/types/ids.h"
 #include "services/types/math/pose.h"
 #include "services/types/motor_command.h"
+#include "sim_world/active_contacts.h"
 #include "sim_world/dynamics/obstacles.h"
 #include "sim_world/separation.h"
-#include "sim_world/touching.h"
 
 namespace giveway::sim {
 
 struct BodyState {
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   Pose world_from_body;
   WheelSpeeds wheels;
   WheelAngles counted;
@@ -29,7 +29,7 @@ struct Checkpoint {
   std::vector<BodyState> bodies;         // of those present
   std::vector<ObstacleState> obstacles;  // in the order of the scenario
   std::vector<double> door_openings;     // in the order of the scenario, [0, 1]
-  std::vector<TouchingPair> touching;
+  std::vector<ContactPair> touching;
   SeparationRecord separation;
 };
 

@@ -7,11 +7,11 @@ namespace giveway::sim {
 Sensing::Sensing(const Scenario& scenario)
     : sonar_(scenario.sonar, scenario.seed, scenario.tick_period), scene_(scenario.walls) {}
 
-void Sensing::Insert(std::size_t index, const VehicleProfile& profile) {
+void Sensing::Insert(std::size_t index, const RobotModel& profile) {
   ring_of_.insert(ring_of_.begin() + static_cast<std::ptrdiff_t>(index), &rings_.Of(profile));
 }
 
-void Sensing::Replace(std::size_t index, const VehicleProfile& profile) {
+void Sensing::Replace(std::size_t index, const RobotModel& profile) {
   ring_of_[index] = &rings_.Of(profile);
 }
 
@@ -20,21 +20,21 @@ void Sensing::Erase(std::size_t index) {
   at_end_ = false;
 }
 
-void Sensing::Fill(double before_s, double dt_s, const Things& things,
+void Sensing::Fill(double before_s, double dt_s, const Collidables& collidables,
                    std::span<const Body> bodies) {
   scene_.Clear();
-  for (std::size_t i = 0; i < things.Count(); ++i) {
-    if (things.present[i] == 0) continue;
+  for (std::size_t i = 0; i < collidables.Count(); ++i) {
+    if (collidables.present[i] == 0) continue;
     const auto owner = static_cast<Owner>(i);
-    if (things.IsLeaf(i)) {
-      const Leaf& leaf = things.LeafOf(i);
+    if (collidables.IsLeaf(i)) {
+      const Leaf& leaf = collidables.LeafOf(i);
       scene_.AddSegment(leaf.from_world, TipAt(leaf, dt_s - before_s), owner);
       continue;
     }
-    const Motion& motion = things.motions[i];
+    const Motion& motion = collidables.motions[i];
     // A body's own pose where there is one: the arc from the start need not end on the same bits.
-    const Pose pose = before_s == 0 && things.IsBody(i) ? bodies[i].world_from_body
-                                                        : PoseAt(motion, dt_s - before_s);
+    const Pose pose = before_s == 0 && collidables.IsBody(i) ? bodies[i].world_from_body
+                                                             : PoseAt(motion, dt_s - before_s);
     if (motion.IsBox()) {
       scene_.AddBox(pose, motion.box_half_m, owner);
     } else {
@@ -45,17 +45,17 @@ void Sensing::Fill(double before_s, double dt_s, const Things& things,
   at_end_ = before_s == 0;
 }
 
-void Sensing::Sense(Tick tick, double dt_s, const Things& things, const ParallelFor& parallel,
-                    std::span<Body> bodies) {
+void Sensing::Sense(Tick tick, double dt_s, const Collidables& collidables,
+                    const ParallelFor& parallel, std::span<Body> bodies) {
   at_end_ = false;
   const auto instant_before = [&](double before_s) {
-    Fill(before_s, dt_s, things, bodies);
+    Fill(before_s, dt_s, collidables, bodies);
     subjects_.clear();
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       Body& body = bodies[i];
       if (!body.present) continue;
       const Pose pose =
-          before_s == 0 ? body.world_from_body : PoseAt(things.motions[i], dt_s - before_s);
+          before_s == 0 ? body.world_from_body : PoseAt(collidables.motions[i], dt_s - before_s);
       subjects_.push_back({.vehicle = body.vehicle,
                            .owner = static_cast<Owner>(i),
                            .world_from_body = pose,
@@ -67,8 +67,9 @@ void Sensing::Sense(Tick tick, double dt_s, const Things& things, const Parallel
   sonar_.Sense(tick, std::ref(instant_before), parallel);
 }
 
-const Scene& Sensing::SceneAtEnd(double dt_s, const Things& things, std::span<const Body> bodies) {
-  if (!at_end_) Fill(0, dt_s, things, bodies);
+const Scene& Sensing::SceneAtEnd(double dt_s, const Collidables& collidables,
+                                 std::span<const Body> bodies) {
+  if (!at_end_) Fill(0, dt_s, collidables, bodies);
   return scene_;
 }
 

@@ -9,7 +9,7 @@
 #include "services/types/parallel.h"
 #include "services/types/scenario.h"
 #include "sim_world/body.h"
-#include "sim_world/dynamics/things.h"
+#include "sim_world/dynamics/collidables.h"
 #include "sim_world/sensors/scene.h"
 #include "sim_world/sensors/sensor.h"
 #include "sim_world/sensors/sonar.h"
@@ -21,20 +21,22 @@ class Sensing {
   explicit Sensing(const Scenario& scenario);
 
   // A body was inserted at `index`: a new one, or another vehicle in an old place.
-  void Insert(std::size_t index, const VehicleProfile& profile);
-  void Replace(std::size_t index, const VehicleProfile& profile);
+  void Insert(std::size_t index, const RobotModel& profile);
+  void Replace(std::size_t index, const RobotModel& profile);
   // The body at `index` left the list.
   void Erase(std::size_t index);
 
-  // Reads every present body's ultrasonics after the tick that `things` made.
-  void Sense(Tick tick, double dt_s, const Things& things, const ParallelFor& parallel,
+  // Reads every present body's ultrasonics after the tick that `collidables` made.
+  void Sense(Tick tick, double dt_s, const Collidables& collidables, const ParallelFor& parallel,
              std::span<Body> bodies);
 
   // Everything as it is at the end of the tick.
-  const Scene& SceneAtEnd(double dt_s, const Things& things, std::span<const Body> bodies);
+  const Scene& SceneAtEnd(double dt_s, const Collidables& collidables,
+                          std::span<const Body> bodies);
 
  private:
-  void Fill(double before_s, double dt_s, const Things& things, std::span<const Body> bodies);
+  void Fill(double before_s, double dt_s, const Collidables& collidables,
+            std::span<const Body> bodies);
 
   Sonar sonar_;
   Scene scene_;

@@ -51,18 +51,18 @@ std::optional<double> Separation::Reach() const {
   return closest_->gap_m;
 }
 
-void Separation::Observe(std::span<const Body> bodies, const Things& things,
+void Separation::Observe(std::span<const Body> bodies, const Collidables& collidables,
                          std::span<const NearPair> pairs, double dt_s) {
-  if (every_pair_) ObserveEveryPair(bodies, things, dt_s);
+  if (every_pair_) ObserveEveryPair(bodies, collidables, dt_s);
   if (closest_ && closest_->gap_m == 0) return;
   // Of equally near pairs the first in this order, independent of the search; an equal gap does not
   // replace a record from an earlier tick.
   using Rank = std::tuple<double, std::uint32_t, std::uint32_t>;
   Rank best = {closest_ ? closest_->gap_m : std::numeric_limits<double>::infinity(), 0, 0};
   for (const NearPair& pair : pairs) {
-    if (!things.IsBody(pair.a) || pair.apart_m > std::get<double>(best)) continue;
-    const Motion& of_a = things.motions[pair.b];
-    const Motion& of_b = things.motions[pair.a];
+    if (!collidables.IsBody(pair.a) || pair.apart_m > std::get<double>(best)) continue;
+    const Motion& of_a = collidables.motions[pair.b];
+    const Motion& of_b = collidables.motions[pair.a];
     const Vec2 offset_at_end = bodies[pair.a].world_from_body.position_world -
                                bodies[pair.b].world_from_body.position_world;
     if (LeastGap(of_a, of_b, offset_at_end, dt_s) > std::get<double>(best)) continue;
@@ -78,12 +78,13 @@ void Separation::Observe(std::span<const Body> bodies, const Things& things,
   }
 }
 
-void Separation::ObserveEveryPair(std::span<const Body> bodies, const Things& things, double dt_s) {
+void Separation::ObserveEveryPair(std::span<const Body> bodies, const Collidables& collidables,
+                                  double dt_s) {
   for (std::size_t b = 1; b < bodies.size(); ++b) {
     for (std::size_t a = 0; a < b; ++a) {
       if (!bodies[a].present || !bodies[b].present) continue;
-      const Motion& of_a = things.motions[a];
-      const Motion& of_b = things.motions[b];
+      const Motion& of_a = collidables.motions[a];
+      const Motion& of_b = collidables.motions[b];
       double& pair_m = closest_of_pair_m_
                            .try_emplace({bodies[a].vehicle, bodies[b].vehicle},
                                         std::numeric_limits<double>::infinity())

@@ -9,14 +9,14 @@
 
 #include "services/types/ids.h"
 #include "sim_world/body.h"
-#include "sim_world/dynamics/things.h"
+#include "sim_world/dynamics/collidables.h"
 #include "sim_world/geometry/neighbours.h"
 
 namespace giveway::sim {
 
 struct ClosestApproach {
-  VehicleId vehicle = kNobody;
-  VehicleId other = kNobody;
+  VehicleId vehicle = kNoVehicle;
+  VehicleId other = kNoVehicle;
   double gap_m = 0;  // 0 for a contact
   Vec2 position_world;
   Vec2 other_position_world;
@@ -37,10 +37,10 @@ class Separation {
   // Only pairs at most this far apart can come nearer than any two did before; none before two
   // bodies were observed together.
   std::optional<double> Reach() const;
-  // Processes one tick of dt_s, in which bodies moved as `things` says to where they now are.
+  // Processes one tick of dt_s, in which bodies moved as `collidables` says to where they now are.
   // `pairs` names at least those within Reach(); before there is a reach, at least the nearest.
-  void Observe(std::span<const Body> bodies, const Things& things, std::span<const NearPair> pairs,
-               double dt_s);
+  void Observe(std::span<const Body> bodies, const Collidables& collidables,
+               std::span<const NearPair> pairs, double dt_s);
 
   // The closest any two came; none before two bodies were observed together.
   const std::optional<ClosestApproach>& Closest() const { return closest_; }
@@ -55,7 +55,7 @@ class Separation {
   }
 
  private:
-  void ObserveEveryPair(std::span<const Body> bodies, const Things& things, double dt_s);
+  void ObserveEveryPair(std::span<const Body> bodies, const Collidables& collidables, double dt_s);
 
   bool every_pair_;
   std::map<std::pair<VehicleId, VehicleId>, double> closest_of_pair_m_;  // lower id first

@@ -40,9 +40,9 @@ World::World(const Scenario& scenario, WorldEpoch epoch, ParallelFor parallel)
       sensing_(scenario) {
   GIVEWAY_CHECK(std::ranges::is_sorted(scenario.vehicles, {}, &VehicleOptions::id));
   bodies_.reserve(scenario.vehicles.size());
-  things_.motions.resize(obstacles_.size());
-  things_.leaves.resize(doors_.size());
-  things_.present.resize(obstacles_.size() + doors_.size());
+  collidables_.motions.resize(obstacles_.size());
+  collidables_.leaves.resize(doors_.size());
+  collidables_.present.resize(obstacles_.size() + doors_.size());
   for (const VehicleOptions& options : scenario.vehicles) Insert(options);
   new_contacts_.reserve(bodies_.size());
 }
@@ -65,10 +65,10 @@ void World::Insert(const VehicleOptions& options) {
   const auto at = std::ranges::lower_bound(bodies_, options.id, {}, &Body::vehicle);
   const auto place = at - bodies_.begin();
   bodies_.insert(at, body);
-  things_.motions.insert(things_.motions.begin() + place,
-                         StandingAt(options.profile, options.start_world));
-  things_.present.insert(things_.present.begin() + place, 0);
-  ++things_.bodies;
+  collidables_.motions.insert(collidables_.motions.begin() + place,
+                              StandingAt(options.profile, options.start_world));
+  collidables_.present.insert(collidables_.present.begin() + place, 0);
+  ++collidables_.bodies;
   sensing_.Insert(static_cast<std::size_t>(place), options.profile);
 }
 
@@ -83,7 +83,7 @@ void World::Appear(Body* body) {
   body->obeyed = false;
   body->command = {};
   body->sonar = {};
-  things_.motions[ThingOf(*body)] = StandingAt(body->profile, body->start_world);
+  collidables_.motions[ThingOf(*body)] = StandingAt(body->profile, body->start_world);
 }
 
 void World::Join(VehicleId vehicle) {
@@ -113,8 +113,8 @@ void World::Remove(VehicleId vehicle) {
   body->wheels = {};
   body->encoders = {};
   body->ground = {};
-  things_.present[ThingOf(*body)] = 0;
-  touching_.EndIf([&](const TouchingPair& pair) {
+  collidables_.present[ThingOf(*body)] = 0;
+  active_contacts_.EndIf([&](const ContactPair& pair) {
     return pair.vehicle == vehicle ||
            (pair.touched == Touched::kVehicle && pair.other == Number(vehicle));
   });
@@ -126,9 +126,9 @@ void World::Forget(VehicleId vehicle) {
   GIVEWAY_CHECK(body != nullptr && !body->present, Number(vehicle));
   const auto place = static_cast<std::ptrdiff_t>(ThingOf(*body));
   bodies_.erase(bodies_.begin() + place);
-  things_.motions.erase(things_.motions.begin() + place);
-  things_.present.erase(things_.present.begin() + place);
-  --things_.bodies;
+  collidables_.motions.erase(collidables_.motions.begin() + place);
+  collidables_.present.erase(collidables_.present.begin() + place);
+  --collidables_.bodies;
   sensing_.Erase(static_cast<std::size_t>(place));
 }
 
@@ -174,7 +174,7 @@ Checkpoint World::Save() const {
     checkpoint.obstacles.push_back(obstacle.State());
   }
   for (const SlidingDoor& door : doors_) checkpoint.door_openings.push_back(door.Opening());
-  checkpoint.touching = touching_.Pairs();
+  checkpoint.touching = active_contacts_.Pairs();
   checkpoint.separation = separation_.Save();
   return checkpoint;
 }
@@ -204,20 +204,20 @@ bool World::Restore(const Checkpoint& checkpoint) {
     obstacles_[i].Restore(checkpoint.obstacles[i]);
   }
   for (std::size_t i = 0; i < doors_.size(); ++i) doors_[i].Restore(checkpoint.door_openings[i]);
-  touching_.Restore(checkpoint.touching);
+  active_contacts_.Restore(checkpoint.touching);
   separation_.Restore(checkpoint.separation);
   return true;
 }
 
 OwnerFacts World::FactsOf(Owner owner) const {
-  if (things_.IsLeaf(owner)) {
-    const Leaf& leaf = things_.LeafOf(owner);
+  if (collidables_.IsLeaf(owner)) {
+    const Leaf& leaf = collidables_.LeafOf(owner);
     return {.velocity_world = leaf.stop_s < dt_s_ ? Vec2{} : leaf.to_velocity_world,
             .seen_class = SeenClass::kFixture};
   }
-  const Motion& motion = things_.motions[owner];
+  const Motion& motion = collidables_.motions[owner];
   OwnerFacts facts;
-  if (things_.IsBody(owner)) {
+  if (collidables_.IsBody(owner)) {
     facts.seen_class = SeenClass::kVehicle;
   } else {
     const bool cart = obstacles_[owner - bodies_.size()].EverMoves();
@@ -225,7 +225,7 @@ OwnerFacts World::FactsOf(Owner owner) const {
   }
   if (motion.stop_s < dt_s_) return facts;
   facts.velocity_world = motion.slide_world;
-  if (things_.IsBody(owner)) {
+  if (collidables_.IsBody(owner)) {
     facts.velocity_world = motion.twist.forward_m_s * Forward(bodies_[owner].world_from_body);
     facts.turn_rad_s = motion.twist.turn_rad_s;
   }

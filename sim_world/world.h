@@ -12,17 +12,17 @@
 #include "services/types/parallel.h"
 #include "services/types/scenario.h"
 #include "services/types/state_hash.h"
+#include "sim_world/active_contacts.h"
 #include "sim_world/body.h"
 #include "sim_world/checkpoint.h"
+#include "sim_world/dynamics/collidables.h"
 #include "sim_world/dynamics/contacts.h"
 #include "sim_world/dynamics/doors.h"
 #include "sim_world/dynamics/drive.h"
 #include "sim_world/dynamics/obstacles.h"
-#include "sim_world/dynamics/things.h"
 #include "sim_world/geometry/neighbours.h"
 #include "sim_world/sensing.h"
 #include "sim_world/separation.h"
-#include "sim_world/touching.h"
 
 namespace giveway::sim {
 
@@ -81,7 +81,7 @@ class World {
 
   // For further sensors: all shapes as they are after the last tick, and what may be known of the
   // owners of shapes: the index in Bodies(), then obstacles, then doors.
-  const Scene& SceneNow() { return sensing_.SceneAtEnd(dt_s_, things_, bodies_); }
+  const Scene& SceneNow() { return sensing_.SceneAtEnd(dt_s_, collidables_, bodies_); }
   OwnerFacts FactsOf(Owner owner) const;
 
   // Adds poses, wheels and their counts, contacts, obstacles and doors.
@@ -101,7 +101,7 @@ class World {
   void Note(const Hit& hit);
   void Settle();
   void SettleBody(std::size_t i);
-  bool HasParted(const TouchingPair& pair) const;
+  bool HasParted(const ContactPair& pair) const;
   std::uint32_t ThingOf(const Body& body) const;
 
   WorldEpoch epoch_;
@@ -113,11 +113,11 @@ class World {
   std::vector<MovingObstacle> obstacles_;
   std::vector<SlidingDoor> doors_;
   std::vector<DriveFault> drive_faults_;  // of the next tick, by vehicle
-  Things things_;                         // as the last tick moved them
+  Collidables collidables_;               // as the last tick moved them
   std::vector<Ball> balls_;
   Neighbours neighbours_;
   sim::Contacts contacts_;
-  Touching touching_;
+  ActiveContacts active_contacts_;
   std::vector<Contact> new_contacts_;
   std::uint32_t contact_count_ = 0;
   Separation separation_;

@@ -40,13 +40,13 @@ void World::Advance(bool driving) {
   new_contacts_.clear();
   Plan(driving);
   FindPairs(driving);
-  for (const Hit& hit : contacts_.StopAll(neighbours_.Pairs(), dt_s_, parallel_, &things_)) {
+  for (const Hit& hit : contacts_.StopAll(neighbours_.Pairs(), dt_s_, parallel_, &collidables_)) {
     Note(hit);
   }
   Settle();
-  if (driving) separation_.Observe(bodies_, things_, neighbours_.Pairs(), dt_s_);
-  touching_.EndIf([this](const TouchingPair& pair) { return HasParted(pair); });
-  sensing_.Sense(now_, dt_s_, things_, parallel_, bodies_);
+  if (driving) separation_.Observe(bodies_, collidables_, neighbours_.Pairs(), dt_s_);
+  active_contacts_.EndIf([this](const ContactPair& pair) { return HasParted(pair); });
+  sensing_.Sense(now_, dt_s_, collidables_, parallel_, bodies_);
 }
 
 // The motion of everything in this tick if nothing obstructed it.
@@ -78,22 +78,22 @@ void World::PlanBody(bool driving, std::size_t i) {
       Roll(body.profile, body.wheels, RollRandom(seed_, body.vehicle, driven_ticks_));
   body.ground = rolled.ground;
   body.encoders = fault == nullptr ? rolled.encoders : Scaled(fault->counts, rolled.encoders);
-  Motion& motion = things_.motions[i];
+  Motion& motion = collidables_.motions[i];
   motion.start_world = body.world_from_body;
   motion.twist = TwistFromWheels(body.profile.drive, body.ground);
   motion.stop_s = dt_s_;
-  things_.present[i] = 1;
+  collidables_.present[i] = 1;
 }
 
 void World::PlanOthers(bool driving) {
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-    things_.motions[bodies_.size() + i] = obstacles_[i].Plan(driving, dt_s_);
-    things_.present[bodies_.size() + i] = 1;
+    collidables_.motions[bodies_.size() + i] = obstacles_[i].Plan(driving, dt_s_);
+    collidables_.present[bodies_.size() + i] = 1;
   }
   for (std::size_t i = 0; i < doors_.size(); ++i) {
     const Leaf leaf = doors_[i].Plan(driving, driven_ticks_ * dt_s_, dt_s_);
-    things_.leaves[i] = leaf;
-    things_.present[things_.motions.size() + i] = doors_[i].Opening() < 1 || Moves(leaf);
+    collidables_.leaves[i] = leaf;
+    collidables_.present[collidables_.motions.size() + i] = doors_[i].Opening() < 1 || Moves(leaf);
   }
 }
 
@@ -101,13 +101,13 @@ void World::PlanOthers(bool driving) {
 void World::FindPairs(bool driving) {
   balls_.clear();
   std::size_t bodies = 0;
-  for (std::uint32_t i = 0; i < things_.Count(); ++i) {
-    if (things_.present[i] == 0) continue;
-    if (things_.IsBody(i)) ++bodies;
-    if (things_.IsLeaf(i)) {
-      balls_.push_back(BallRound(things_.LeafOf(i), dt_s_, i));
+  for (std::uint32_t i = 0; i < collidables_.Count(); ++i) {
+    if (collidables_.present[i] == 0) continue;
+    if (collidables_.IsBody(i)) ++bodies;
+    if (collidables_.IsLeaf(i)) {
+      balls_.push_back(BallRound(collidables_.LeafOf(i), dt_s_, i));
     } else {
-      const Motion& motion = things_.motions[i];
+      const Motion& motion = collidables_.motions[i];
       balls_.push_back(
           {motion.start_world.position_world, motion.radius_m + TravelBound(motion, dt_s_), i});
     }
@@ -129,40 +129,41 @@ void World::FindFirstPairs() {
     neighbours_.Find(balls_, margin_m, parallel_);
     searched_m = margin_m;
     for (const NearPair& pair : neighbours_.Pairs()) {
-      if (!things_.IsBody(pair.a)) continue;
-      nearest_m = std::min(nearest_m, GapAt(things_.motions[pair.a], things_.motions[pair.b], 0));
+      if (!collidables_.IsBody(pair.a)) continue;
+      nearest_m =
+          std::min(nearest_m, GapAt(collidables_.motions[pair.a], collidables_.motions[pair.b], 0));
     }
   }
 }
 
 void World::Note(const Hit& hit) {
   const std::uint32_t lower = hit.wall ? hit.a : hit.b;
-  if (!things_.IsBody(lower)) return;  // a cart that was held up by something
-  const Motion& motion = things_.motions[lower];
+  if (!collidables_.IsBody(lower)) return;  // a cart that was held up by something
+  const Motion& motion = collidables_.motions[lower];
   // The lower id comes first, so that an event reads the same however the pair was found.
   Contact contact{.vehicle = bodies_[lower].vehicle, .position_world = PositionAt(motion, hit.t_s)};
-  TouchingPair pair{.vehicle = contact.vehicle};
+  ContactPair pair{.vehicle = contact.vehicle};
   const Outline outline = OutlineAt(motion, hit.t_s);
   if (hit.wall) {
     contact.touched = Touched::kWall;
     pair.other = hit.b;
     contact.other_position_world =
         NearestBetween(outline, OutlineOf(contacts_.Walls()[hit.b])).on_b_world;
-  } else if (things_.IsBody(hit.a)) {
+  } else if (collidables_.IsBody(hit.a)) {
     contact.other = bodies_[hit.a].vehicle;
     pair.other = Number(contact.other);
-    contact.other_position_world = PositionAt(things_.motions[hit.a], hit.t_s);
+    contact.other_position_world = PositionAt(collidables_.motions[hit.a], hit.t_s);
   } else {
-    const bool door = things_.IsLeaf(hit.a);
+    const bool door = collidables_.IsLeaf(hit.a);
     contact.touched = door ? Touched::kDoor : Touched::kObstacle;
     pair.other =
-        static_cast<std::uint32_t>(hit.a - (door ? things_.motions.size() : bodies_.size()));
-    const Outline other = door ? OutlineAt(things_.LeafOf(hit.a), hit.t_s)
-                               : OutlineAt(things_.motions[hit.a], hit.t_s);
+        static_cast<std::uint32_t>(hit.a - (door ? collidables_.motions.size() : bodies_.size()));
+    const Outline other = door ? OutlineAt(collidables_.LeafOf(hit.a), hit.t_s)
+                               : OutlineAt(collidables_.motions[hit.a], hit.t_s);
     contact.other_position_world = NearestBetween(outline, other).on_b_world;
   }
   pair.touched = contact.touched;
-  if (!touching_.Begin(pair)) return;
+  if (!active_contacts_.Begin(pair)) return;
   ++contact_count_;
   new_contacts_.push_back(contact);
 }
@@ -175,16 +176,16 @@ void World::Settle() {
   };
   parallel_(bodies_.size(), std::ref(settle));
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-    obstacles_[i].Settle(things_.motions[bodies_.size() + i], dt_s_);
+    obstacles_[i].Settle(collidables_.motions[bodies_.size() + i], dt_s_);
   }
-  for (std::size_t i = 0; i < doors_.size(); ++i) doors_[i].Settle(things_.leaves[i], dt_s_);
+  for (std::size_t i = 0; i < doors_.size(); ++i) doors_[i].Settle(collidables_.leaves[i], dt_s_);
 }
 
 void World::SettleBody(std::size_t i) {
   Body& body = bodies_[i];
-  if (things_.motions[i].stop_s < dt_s_) {
+  if (collidables_.motions[i].stop_s < dt_s_) {
     // The wheels turned for a part of the tick only: over the whole of it, that much slower.
-    const double share = things_.motions[i].stop_s / dt_s_;
+    const double share = collidables_.motions[i].stop_s / dt_s_;
     body.encoders = Scaled(share, body.encoders);
     body.ground = Scaled(share, body.ground);
     body.wheels = {};
@@ -196,19 +197,19 @@ void World::SettleBody(std::size_t i) {
                                     TwistFromWheels(body.profile.drive, body.ground), dt_s_);
 }
 
-bool World::HasParted(const TouchingPair& pair) const {
+bool World::HasParted(const ContactPair& pair) const {
   const Body* body = Find(pair.vehicle);
-  const Motion& motion = things_.motions[ThingOf(*body)];
+  const Motion& motion = collidables_.motions[ThingOf(*body)];
   const auto parted = [&](const auto& other) { return GapAt(motion, other, dt_s_) > kRelease_m; };
   switch (pair.touched) {
     case Touched::kWall:
       return parted(contacts_.Walls()[pair.other]);
     case Touched::kObstacle:
-      return parted(things_.motions[bodies_.size() + pair.other]);
+      return parted(collidables_.motions[bodies_.size() + pair.other]);
     case Touched::kDoor:
-      return doors_[pair.other].Opening() == 1 || parted(things_.leaves[pair.other]);
+      return doors_[pair.other].Opening() == 1 || parted(collidables_.leaves[pair.other]);
     case Touched::kVehicle:
-      return parted(things_.motions[ThingOf(*Find(VehicleId{pair.other}))]);
+      return parted(collidables_.motions[ThingOf(*Find(VehicleId{pair.other}))]);
   }
   return true;
 }

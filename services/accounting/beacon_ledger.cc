@@ -99,8 +99,8 @@ void BeaconLedger::Settle(Row* row) {
   const ReceivedBeacon& newest = *row->newest;
   const BeaconArrival& now = newest.arrival;
   const bool is_first = row->settled.last == 0;
-  const bool log_began_anew = now.arrived < row->base.arrived;
-  if ((is_first && Apart(newest) != row->apart) || log_began_anew) {
+  const bool log_restarted = now.arrived < row->base.arrived;
+  if ((is_first && Apart(newest) != row->apart) || log_restarted) {
     return Begin(newest, row->fate, row);  // either of the two numbers may be the corrupted one
   }
   if (Apart(newest) != row->apart) {

@@ -14,8 +14,8 @@
 namespace giveway {
 
 struct PairAccount {
-  VehicleId reader = kNobody;
-  VehicleId writer = kNobody;
+  VehicleId reader = kNoVehicle;
+  VehicleId writer = kNoVehicle;
   AccountSums sums;  // of all their lives
   // Beacons counted twice or not at all: one too many in one life does not make up for one too few
   // in another.

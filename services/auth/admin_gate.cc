@@ -4,7 +4,7 @@
 
 namespace giveway::auth {
 
-std::string AdminGate::WhyNot(const AdminOrder& order) {
+std::string AdminGate::WhyNot(const AdminRequest& order) {
   if (open_) return {};
   if (!key_) return "it takes no orders: it was started without --admin-key and --admin";
   if (!IsSealed(*key_, order)) return "the order is not sealed with the key of this fleet";

@@ -26,7 +26,7 @@ class AdminGate {
   bool IsShut() const { return !open_ && !key_; }
   // Why the order is not to be carried out; empty if it is. One that is carried out is remembered:
   // it is refused from then on.
-  std::string WhyNot(const AdminOrder& order);
+  std::string WhyNot(const AdminRequest& order);
   // The answer with its seal, where there is a key.
   void Seal(AdminAnswer* answer) const;
 

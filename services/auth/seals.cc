@@ -31,7 +31,7 @@ class Fields {
 
 }  // namespace
 
-Seal SealOf(std::string_view key, const AdminOrder& order) {
+Seal SealOf(std::string_view key, const AdminRequest& order) {
   Fields fields("giveway order 1");
   fields.Add(std::uint64_t{Number(order.vehicle)});
   fields.Add(order.number);
@@ -58,7 +58,7 @@ Seal SealOf(std::string_view key, const AdminAnswer& answer) {
   return fields.By(key);
 }
 
-bool IsSealed(std::string_view key, const AdminOrder& order) {
+bool IsSealed(std::string_view key, const AdminRequest& order) {
   return AreEqual(SealOf(key, order), order.seal);
 }
 

@@ -8,9 +8,9 @@
 
 namespace giveway::auth {
 
-Seal SealOf(std::string_view key, const AdminOrder& order);
+Seal SealOf(std::string_view key, const AdminRequest& order);
 Seal SealOf(std::string_view key, const AdminAnswer& answer);
-bool IsSealed(std::string_view key, const AdminOrder& order);
+bool IsSealed(std::string_view key, const AdminRequest& order);
 bool IsSealed(std::string_view key, const AdminAnswer& answer);
 
 }  // namespace giveway::auth

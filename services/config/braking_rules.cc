@@ -70,8 +70,8 @@ std::vector<Driver> DriversOf(const ReadScenario& read) {
   return drivers;
 }
 
-void ComplainOfPair(const Driver& own, const Driver& peer, const BrakingSum& sum) {
-  own.section->Complain(
+void AddPairError(const Driver& own, const Driver& peer, const BrakingSum& sum) {
+  own.section->AddError(
       "cruise_m_s",
       fmt::format("{} at {:.3g} m/s and {} at {:.3g} m/s (a seed's 2 % included) could not stop "
                   "before they touch: braking {:.2f} "
@@ -110,7 +110,7 @@ void CheckPairs(const std::vector<Driver>& drivers, double delay_s) {
     for (std::size_t j = k + 1; j < order.size(); ++j) {
       const BrakingSum sum = SumOf(*own.options, *drivers[order[j]].options, delay_s);
       if (sum.ComesOut()) continue;
-      ComplainOfPair(own, drivers[order[j]], sum);
+      AddPairError(own, drivers[order[j]], sum);
       break;
     }
   }
@@ -125,7 +125,7 @@ void CheckStanding(const Driver& driver) {
   if (CanStopForStanding(own)) return;
   const double reaction_s = ReactionSeconds(own);
   const double needed_m = NeededForStanding(own);
-  driver.section->Complain(
+  driver.section->AddError(
       "cruise_m_s",
       fmt::format("{} at {:.3g} m/s (a seed's 2 % included) could not stop before a wall or an "
                   "obstacle: braking "

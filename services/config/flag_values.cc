@@ -42,24 +42,24 @@ std::optional<std::string> FlagValues::Text(const std::string& flag) const {
 
 std::string FlagValues::TextOr(const std::string& fallback, const std::string& flag) {
   const std::string text = Text(flag).value_or(fallback);
-  if (text.empty()) Complain(flag, "must not be empty", "write a value or leave the flag out");
+  if (text.empty()) AddError(flag, "must not be empty", "write a value or leave the flag out");
   return text;
 }
 
 std::string FlagValues::RequiredText(const std::string& flag, const std::string& remedy) {
   const std::string text = Text(flag).value_or("");
-  if (text.empty()) Complain(flag, "is required and missing", remedy);
+  if (text.empty()) AddError(flag, "is required and missing", remedy);
   return text;
 }
 
-std::optional<std::uint32_t> FlagValues::Whole(const std::string& flag, const Allowed& allowed) {
+std::optional<std::uint32_t> FlagValues::Uint(const std::string& flag, const Allowed& allowed) {
   const auto text = Text(flag);
   if (!text) return std::nullopt;
   const auto value = Parse<std::uint32_t>(*text);
   if (value && allowed.Contains(*value)) return value;
   // Printed as whole numbers: 4294967295 would come out as 4.29e9.
   const std::string range = fmt::format("between {:.0f} and {:.0f}", allowed.low, allowed.high);
-  Complain(flag, "must be a whole number " + range, "write one in that range");
+  AddError(flag, "must be a whole number " + range, "write one in that range");
   return std::nullopt;
 }
 
@@ -68,7 +68,7 @@ std::optional<double> FlagValues::Number(const std::string& flag, const Allowed&
   if (!text) return std::nullopt;
   const auto value = Parse<double>(*text);
   if (value && std::isfinite(*value) && allowed.Contains(*value)) return value;
-  Complain(flag, "must be a number " + Describe(allowed), "write one in that range");
+  AddError(flag, "must be a number " + Describe(allowed), "write one in that range");
   return std::nullopt;
 }
 
@@ -76,7 +76,7 @@ std::optional<std::string> FlagValues::OneOf(const std::string& flag,
                                              std::initializer_list<std::string_view> names) {
   const auto text = Text(flag);
   if (!text || std::find(names.begin(), names.end(), *text) != names.end()) return text;
-  Complain(flag, fmt::format("must be one of {}", fmt::join(names, ", ")),
+  AddError(flag, fmt::format("must be one of {}", fmt::join(names, ", ")),
            "write one of these names");
   return std::nullopt;
 }
@@ -86,7 +86,7 @@ bool FlagValues::Switch(const std::string& flag) {
   return text == "1" || text == "true";
 }
 
-void FlagValues::Complain(const std::string& flag, std::string message, std::string remedy) {
+void FlagValues::AddError(const std::string& flag, std::string message, std::string remedy) {
   const auto value = Text(flag);
   const bool from_environment = value && !given_.contains(flag);
   problems_.push_back({from_environment ? "environment" : "command line", 0,
@@ -104,7 +104,7 @@ std::vector<DiscoveryServer> ReadDiscoveryServers(FlagValues* values) {
   if (!text) return {};
   ParsedDiscoveryServers parsed = ParseDiscoveryServers(*text);
   if (!parsed.fault.empty()) {
-    values->Complain("--discovery-server", parsed.fault,
+    values->AddError("--discovery-server", parsed.fault,
                      "write HOST or HOST:PORT, several with commas between them");
   }
   return std::move(parsed.servers);

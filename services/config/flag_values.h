@@ -30,7 +30,7 @@ class FlagValues {
   std::string TextOr(const std::string& fallback, const std::string& flag);
   // Required text: empty if missing, which is a problem.
   std::string RequiredText(const std::string& flag, const std::string& remedy);
-  std::optional<std::uint32_t> Whole(const std::string& flag, const Allowed& allowed);
+  std::optional<std::uint32_t> Uint(const std::string& flag, const Allowed& allowed);
   std::optional<double> Number(const std::string& flag, const Allowed& allowed);
   // One of `names`; nothing if not set, or none of them.
   std::optional<std::string> OneOf(const std::string& flag,
@@ -38,7 +38,7 @@ class FlagValues {
   // A switch: its twin is 1 or true, 0 or false.
   bool Switch(const std::string& flag);
 
-  void Complain(const std::string& flag, std::string message, std::string remedy);
+  void AddError(const std::string& flag, std::string message, std::string remedy);
   void Add(const std::vector<Problem>& problems);
   const std::vector<Problem>& Problems() const { return problems_; }
 

@@ -89,7 +89,7 @@ std::optional<Impairment> ReadImpairment(FlagValues* values) {
   if (!text) return std::nullopt;
   ParsedImpairment parsed = ParseImpairment(*text);
   for (ImpairTextProblem& problem : parsed.problems) {
-    values->Complain("--impair", std::move(problem.message), std::move(problem.remedy));
+    values->AddError("--impair", std::move(problem.message), std::move(problem.remedy));
   }
   return std::move(parsed.impairment);
 }
@@ -97,10 +97,10 @@ std::optional<Impairment> ReadImpairment(FlagValues* values) {
 void ReadRing(FlagValues* values, ServiceFlags* flags) {
   if (!values->Text("--record-ring")) return;
   if (values->Text("--record-split")) {
-    values->Complain("--record-ring", "a ring is split by time, and not by size",
+    values->AddError("--record-ring", "a ring is split by time, and not by size",
                      "leave --record-split out, or --record-ring");
   }
-  flags->record_ring = std::chrono::seconds(values->Whole("--record-ring", {5, 3600}).value_or(0));
+  flags->record_ring = std::chrono::seconds(values->Uint("--record-ring", {5, 3600}).value_or(0));
 }
 
 void ReadRecord(FlagValues* values, ServiceFlags* flags) {
@@ -110,7 +110,7 @@ void ReadRecord(FlagValues* values, ServiceFlags* flags) {
   if (!split) return;
   const auto bytes = ParseByteSize(*split);
   if (!bytes || *bytes < kLeastSplitBytes || *bytes > kMostSplitBytes) {
-    values->Complain("--record-split", "\"" + *split + "\" is no size a recording is split by",
+    values->AddError("--record-split", "\"" + *split + "\" is no size a recording is split by",
                      kSplitRemedy);
     return;
   }
@@ -124,7 +124,7 @@ std::optional<Resumed> ReadResumed(FlagValues* values) {
     const auto resumed = ResumedFrom(ReadBytes(*file));
     LetGo(*file);
     if (resumed) return resumed;
-    values->Complain("--resume", "\"" + *file + "\" does not hold what a vehicle gives to itself",
+    values->AddError("--resume", "\"" + *file + "\" does not hold what a vehicle gives to itself",
                      "leave it out: fleetctl qos apply makes a vehicle restart itself");
   } catch (const InputError& error) {
     values->Add(error.Problems());
@@ -133,7 +133,7 @@ std::optional<Resumed> ReadResumed(FlagValues* values) {
 }
 
 void ReadHealth(FlagValues* values, ServiceFlags* flags) {
-  flags->health_port = values->Whole("--health-port", {0, 65535}).value_or(0);
+  flags->health_port = values->Uint("--health-port", {0, 65535}).value_or(0);
   flags->health_address = values->TextOr(flags->health_address, "--health-address");
   const auto what = values->Text("--health");
   if (what) {
@@ -142,7 +142,7 @@ void ReadHealth(FlagValues* values, ServiceFlags* flags) {
         is_silent ? "ready" : values->OneOf("--health", {"live", "ready", "metrics"}).value_or("");
   }
   if (!flags->ask_health.empty() && flags->health_port == 0) {
-    values->Complain("--health", "asks at --health-port, and there is none",
+    values->AddError("--health", "asks at --health-port, and there is none",
                      "write --health-port with the port of the service");
   }
 }
@@ -154,14 +154,14 @@ ServiceFlags Read(Service service, FlagValues* values) {
   if (values->Text("--health")) return flags;  // what a service needs, a question does not
   flags.scenario = values->RequiredText("--scenario", "name a file or a shipped scenario");
   if (!values->Text("--domain")) {
-    values->Complain("--domain", "is required and missing", "write --domain with a number 1..99");
+    values->AddError("--domain", "is required and missing", "write --domain with a number 1..99");
   }
-  flags.domain = values->Whole("--domain", {1, 99}).value_or(0);
+  flags.domain = values->Uint("--domain", {1, 99}).value_or(0);
   flags.interface = values->TextOr(flags.interface, "--interface");
   flags.discovery_servers = ReadDiscoveryServers(values);
   flags.qos = ReadQosFlag(values);
   if (service == Service::kVehicle) {
-    flags.id = values->Whole("--id", {1, kMaxWhole}).value_or(0);
+    flags.id = values->Uint("--id", {1, kMaxWhole}).value_or(0);
     ReadRecord(values, &flags);
     flags.impair = ReadImpairment(values);
     flags.stay = values->Switch("--stay");
@@ -170,7 +170,7 @@ ServiceFlags Read(Service service, FlagValues* values) {
     flags.watchdog = !values->Switch("--no-watchdog");
   }
   if (service == Service::kWorld) {
-    flags.threads = values->Whole("--threads", {1, 256}).value_or(flags.threads);
+    flags.threads = values->Uint("--threads", {1, 256}).value_or(flags.threads);
     flags.go_on_from = values->Text("--go-on-from").value_or("");
     if (values->Text("--checkpoint")) flags.checkpoint = values->TextOr("", "--checkpoint");
     if (values->Text("--faults")) flags.faults = values->TextOr("", "--faults");
@@ -179,7 +179,7 @@ ServiceFlags Read(Service service, FlagValues* values) {
   flags.resume = ReadResumed(values);
   flags.former_qos = values->Text("--former-qos").value_or("");
   flags.rolled_back = values->Text("--rolled-back").value_or("");
-  flags.seed = values->Whole("--seed", {0, kMaxWhole});
+  flags.seed = values->Uint("--seed", {0, kMaxWhole});
   const auto behaviour =
       values->OneOf("--behaviour", {Name(Behaviour::kCooperative), Name(Behaviour::kLectureAvoid),
                                     Name(Behaviour::kStockAvoid), Name(Behaviour::kLectureYield),

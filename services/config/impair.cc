@@ -68,12 +68,12 @@ std::vector<RuleConflict> ConflictsIn(const ImpairmentRule& rule) {
 
 namespace {
 
-// kNobody where absent.
+// kNoVehicle where absent.
 VehicleId ReadVehicleId(const Section& section, const char* field, const KnownIds& known) {
-  if (!section.Has(field)) return kNobody;
-  const VehicleId id{section.Whole(field, kId)};
-  if (id != kNobody && !known.vehicles.contains(id) && !known.joining.contains(id)) {
-    section.Complain(field, "no vehicle has this id", "name the id of a vehicle of this file");
+  if (!section.Has(field)) return kNoVehicle;
+  const VehicleId id{section.Uint(field, kId)};
+  if (id != kNoVehicle && !known.vehicles.contains(id) && !known.joining.contains(id)) {
+    section.AddError(field, "no vehicle has this id", "name the id of a vehicle of this file");
   }
   return id;
 }
@@ -83,11 +83,11 @@ ImpairedSender ReadFrom(const Section& section) {
                                                  ImpairedSender::kWorld};
   if (section.Has("from_vehicle")) {
     if (section.Has("from")) {
-      section.Complain("from", "is given together with from_vehicle", "remove one of the two");
+      section.AddError("from", "is given together with from_vehicle", "remove one of the two");
     }
     return ImpairedSender::kOneVehicle;
   }
-  const int from = section.Choice("from").value_or(0);
+  const int from = section.Enum("from").value_or(0);
   return kAsNumberedInTheSchema[static_cast<std::size_t>(from)];
 }
 
@@ -95,7 +95,7 @@ Blackout ReadBlackout(const Section& section) {
   const Blackout blackout{section.Number("from_s", kBlackoutTime),
                           section.Number("to_s", kBlackoutTime)};
   if (blackout.from_s >= blackout.to_s) {
-    section.Complain("to_s", "the blackout ends before it starts", "write to_s above from_s");
+    section.AddError("to_s", "the blackout ends before it starts", "write to_s above from_s");
   }
   return blackout;
 }
@@ -108,7 +108,7 @@ void ReadDuring(const Section& section, ImpairmentRule* rule) {
   if (section.Has("from_s")) rule->from_s = section.Number("from_s", kBlackoutTime);
   if (section.Has("to_s")) rule->to_s = section.Number("to_s", kBlackoutTime);
   if (rule->to_s && rule->from_s.value_or(0) >= *rule->to_s) {
-    section.Complain("to_s", "the rule ends before it starts", "write to_s above from_s");
+    section.AddError("to_s", "the rule ends before it starts", "write to_s above from_s");
   }
 }
 
@@ -124,15 +124,15 @@ ImpairmentRule ReadImpairmentRule(const Section& section, const KnownIds& known)
     value = section.NumberOr(value * field.per_si, field.field, field.allowed) / field.per_si;
   }
   for (const RuleConflict& conflict : ConflictsIn(rule)) {
-    section.Complain(conflict.field, conflict.message, conflict.remedy);
+    section.AddError(conflict.field, conflict.message, conflict.remedy);
   }
   ReadDuring(section, &rule);
   if (section.Count("blackout") > kMaxBlackouts) {
-    section.Complain("blackout", "is one too many: at most 1024 are allowed", "leave some out",
+    section.AddError("blackout", "is one too many: at most 1024 are allowed", "leave some out",
                      kMaxBlackouts);
     return rule;
   }
-  for (const Section& blackout : section.Subs("blackout")) {
+  for (const Section& blackout : section.Children("blackout")) {
     rule.blackouts.push_back(ReadBlackout(blackout));
   }
   return rule;
@@ -207,7 +207,7 @@ class Parser {
     if (text == "none") return {};
     const auto rules = Split(text, ';');
     if (std::ssize(rules) > most_rules_) {
-      Complain("", "", fmt::format("{} rules; at most {} are allowed", rules.size(), most_rules_),
+      AddError("", "", fmt::format("{} rules; at most {} are allowed", rules.size(), most_rules_),
                "leave some out");
       return parsed_;
     }
@@ -216,7 +216,7 @@ class Parser {
   }
 
  private:
-  void Complain(std::string_view key, std::string_view value, const std::string& message,
+  void AddError(std::string_view key, std::string_view value, const std::string& message,
                 std::string remedy) {
     const std::string what = key.empty() ? "" : fmt::format("{} = {}: ", key, value);
     parsed_.problems.push_back({what + message, std::move(remedy)});
@@ -227,7 +227,7 @@ class Parser {
     given_.clear();
     for (const std::string_view item : Split(text, ',')) ParseItem(item);
     for (const RuleConflict& conflict : ConflictsIn(rule_)) {
-      Complain("", "", conflict.message, conflict.remedy);
+      AddError("", "", conflict.message, conflict.remedy);
     }
     parsed_.impairment.rules.push_back(rule_);
   }
@@ -235,13 +235,13 @@ class Parser {
   void ParseItem(std::string_view item) {
     const std::size_t equals = item.find('=');
     if (equals == std::string_view::npos) {
-      return Complain("", "", fmt::format("\"{}\" is no key=value", item),
+      return AddError("", "", fmt::format("\"{}\" is no key=value", item),
                       "write such as loss=0.1,delay=20ms, or none");
     }
     const std::string_view key = item.substr(0, equals);
     const std::string_view value = item.substr(equals + 1);
     if (key != "blackout" && !given_.insert(key).second) {
-      return Complain(key, value, "is given twice", "write it once a rule");
+      return AddError(key, value, "is given twice", "write it once a rule");
     }
     if (key == "seed") return ParseSeed(value);
     if (key == "from") return ParseFrom(value);
@@ -251,7 +251,7 @@ class Parser {
     const auto fields = ImpairFields();
     const auto field = std::ranges::find(fields, key, &ImpairField::key);
     if (field == fields.end()) {
-      return Complain(key, value, "is no part of an impairment", "write one of " + KnownKeys());
+      return AddError(key, value, "is no part of an impairment", "write one of " + KnownKeys());
     }
     ParseField(*field, value);
   }
@@ -259,11 +259,11 @@ class Parser {
   void ParseSeed(std::string_view value) {
     const auto seed = NumberOf<std::uint32_t>(value);
     if (!seed) {
-      return Complain("seed", value, "must be a whole number between 0 and 4294967295",
+      return AddError("seed", value, "must be a whole number between 0 and 4294967295",
                       "write one in that range");
     }
     if (parsed_.impairment.seed) {
-      return Complain("seed", value, "is the second seed", "write one for all rules");
+      return AddError("seed", value, "is the second seed", "write one for all rules");
     }
     parsed_.impairment.seed = seed;
   }
@@ -280,15 +280,15 @@ class Parser {
     }
     rule_.from = ImpairedSender::kOneVehicle;
     rule_.from_vehicle = ParseId(value);
-    if (rule_.from_vehicle == kNobody) {
-      Complain("from", value, "names no sender", "write anyone, vehicles, world or a vehicle's id");
+    if (rule_.from_vehicle == kNoVehicle) {
+      AddError("from", value, "names no sender", "write anyone, vehicles, world or a vehicle's id");
     }
   }
 
   void ParseTo(std::string_view value) {
     rule_.to_vehicle = ParseId(value);
-    if (rule_.to_vehicle == kNobody) {
-      Complain("to", value, "names no vehicle", "write a vehicle's id, or leave it out");
+    if (rule_.to_vehicle == kNoVehicle) {
+      AddError("to", value, "names no vehicle", "write a vehicle's id, or leave it out");
     }
   }
 
@@ -298,15 +298,15 @@ class Parser {
     const auto to_s =
         dots == std::string_view::npos ? std::nullopt : ParseTime_s(value.substr(dots + 2));
     if (!from_s || !to_s) {
-      return Complain("blackout", value, "is no span of time", "write such as blackout=5s..7s");
+      return AddError("blackout", value, "is no span of time", "write such as blackout=5s..7s");
     }
     if (!kBlackoutTime.Contains(*from_s) || !kBlackoutTime.Contains(*to_s) || *from_s >= *to_s) {
-      return Complain("blackout", value,
+      return AddError("blackout", value,
                       "must start before it ends, both " + Describe(kBlackoutTime),
                       "write seconds since the start signal, such as 5s..7s");
     }
     if (std::ssize(rule_.blackouts) >= kMaxBlackouts) {
-      return Complain("blackout", value, fmt::format("at most {} are allowed", kMaxBlackouts),
+      return AddError("blackout", value, fmt::format("at most {} are allowed", kMaxBlackouts),
                       "leave some out");
     }
     rule_.blackouts.push_back({*from_s, *to_s});
@@ -322,13 +322,13 @@ class Parser {
     const bool is_span = dots != std::string_view::npos && !(from.empty() && to.empty()) &&
                          (rule_.from_s || from.empty()) && (rule_.to_s || to.empty());
     if (!is_span) {
-      return Complain("during", value, "is no span of time",
+      return AddError("during", value, "is no span of time",
                       "write such as during=60s..80s or during=60s..");
     }
     const double from_s = rule_.from_s.value_or(0);
     if (!kBlackoutTime.Contains(from_s) || (rule_.to_s && !kBlackoutTime.Contains(*rule_.to_s)) ||
         (rule_.to_s && from_s >= *rule_.to_s)) {
-      Complain("during", value, "must start before it ends, both " + Describe(kBlackoutTime),
+      AddError("during", value, "must start before it ends, both " + Describe(kBlackoutTime),
                "write seconds since the start signal, such as 60s..80s");
     }
   }
@@ -343,7 +343,7 @@ class Parser {
     const std::string remedy = field.is_time     ? "write such as 20ms or 0.02s"
                                : field.IsShare() ? "write such as 0.1 or 10%"
                                                  : "write one in that range";
-    Complain(field.key, value, kind + Describe(field.allowed), remedy);
+    AddError(field.key, value, kind + Describe(field.allowed), remedy);
   }
 
   const int most_rules_;
@@ -394,7 +394,8 @@ std::string RuleText(const ImpairmentRule& rule) {
   } else if (rule.from != ImpairedSender::kAnyone) {
     AppendItem("from", rule.from == ImpairedSender::kWorld ? "world" : "vehicles", &text);
   }
-  if (rule.to_vehicle != kNobody) AppendItem("to", std::to_string(Number(rule.to_vehicle)), &text);
+  if (rule.to_vehicle != kNoVehicle)
+    AppendItem("to", std::to_string(Number(rule.to_vehicle)), &text);
   const ImpairmentRule plain;
   for (const ImpairField& field : ImpairFields()) {
     const double value = rule.*field.member;

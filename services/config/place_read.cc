@@ -23,13 +23,13 @@ struct Ends {
 
 Ends ReadEnds(const Section& section, const char* what) {
   const auto end = [&](const char* field) {
-    const auto point = section.RequiredSub(field);
+    const auto point = section.RequiredChild(field);
     return point ? ReadPoint(*point) : Vec2{kUnusable, kUnusable};
   };
   const Ends ends{end("from"), end("to")};
   const double length_m = Norm(ends.to_world - ends.from_world);
   if (length_m < kShortest_m) {
-    section.Complain("to",
+    section.AddError("to",
                      fmt::format("the {} has no length: from is {} m away, at least {} is needed",
                                  what, length_m, kShortest_m),
                      fmt::format("move one end, or remove the {}", what));
@@ -41,7 +41,7 @@ void RefuseWithoutEffect(const Section& section, std::initializer_list<const cha
                          const char* from_tier) {
   for (const char* field : fields) {
     if (!section.Has(field)) continue;
-    section.Complain(field, fmt::format("has no effect below tier {}", from_tier),
+    section.AddError(field, fmt::format("has no effect below tier {}", from_tier),
                      fmt::format("write tier: {}, or remove it", from_tier));
   }
 }
@@ -51,7 +51,7 @@ bool KeepsSchedule(SonarTier tier) { return tier >= SonarTier::kP3dx; }
 void CheckRefresh(const Section& section, const SonarModel& sonar, Nanoseconds tick_period) {
   const auto ticks = kArraySlots * sonar.slot / tick_period;
   if (!KeepsSchedule(sonar.tier) || ticks <= kMaxRefreshTicks) return;
-  section.Complain("slot_ms",
+  section.AddError("slot_ms",
                    fmt::format("a transducer that fires every {:g} ms is refreshed every {} ticks "
                                "of {:g} ms: at most {} are allowed",
                                Milliseconds(kArraySlots * sonar.slot), ticks,
@@ -60,10 +60,10 @@ void CheckRefresh(const Section& section, const SonarModel& sonar, Nanoseconds t
 }
 
 void ReadShape(const Section& section, Obstacle* obstacle) {
-  const auto box = section.Sub("box");
+  const auto box = section.Child("box");
   const bool disc = section.Has("disc_radius_m");
   if (disc == box.has_value()) {
-    section.Complain(disc ? "disc_radius_m" : "",
+    section.AddError(disc ? "disc_radius_m" : "",
                      disc ? "is given together with box" : "the obstacle has no shape",
                      "write one of disc_radius_m: and box { ... }");
   }
@@ -80,13 +80,13 @@ void CheckLegs(const Section& section, const Obstacle& obstacle) {
   Vec2 before = obstacle.start_world.position_world;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (Norm(points[i] - before) < kShortest_m) {
-      section.Complain("waypoint", "is where the obstacle is already", "remove it or move it",
+      section.AddError("waypoint", "is where the obstacle is already", "remove it or move it",
                        static_cast<int>(i));
     }
     before = points[i];
   }
   if (obstacle.loop && Norm(before - obstacle.start_world.position_world) < kShortest_m) {
-    section.Complain("waypoint", "is the start, to which the loop returns by itself", "remove it",
+    section.AddError("waypoint", "is the start, to which the loop returns by itself", "remove it",
                      static_cast<int>(points.size()) - 1);
   }
 }
@@ -96,7 +96,7 @@ void ReadCourse(const Section& section, Obstacle* obstacle) {
   if (count == 0) {
     for (const char* field : {"speed_m_s", "loop"}) {
       if (!section.Has(field)) continue;
-      section.Complain(field, "is given, but there is no waypoint",
+      section.AddError(field, "is given, but there is no waypoint",
                        "write waypoint { x_m: y_m: }, or remove it");
     }
     return;
@@ -104,12 +104,12 @@ void ReadCourse(const Section& section, Obstacle* obstacle) {
   obstacle->speed_m_s = section.Number("speed_m_s", {0, kFastest_m_s, "m/s", true});
   obstacle->loop = section.FlagOr(false, "loop");
   if (count > kMaxWaypoints) {
-    section.Complain("",
+    section.AddError("",
                      fmt::format("has {} waypoints; at most {} are allowed", count, kMaxWaypoints),
                      "leave some out");
     return;
   }
-  for (const Section& point : section.Subs("waypoint")) {
+  for (const Section& point : section.Children("waypoint")) {
     obstacle->waypoints_world.push_back(ReadPoint(point));
   }
   CheckLegs(section, *obstacle);
@@ -122,7 +122,7 @@ void CheckCrosses(const Section& section, const SignalPlan& signal) {
   const double across = Cross(line, travel);
   const double least = Sin(Radians(10)) * Norm(line);
   if (across > -least && across < least) {
-    section.Complain("heading_deg", "runs along the stop line, not across it",
+    section.AddError("heading_deg", "runs along the stop line, not across it",
                      "turn it at least 10 degrees away from the line");
   }
 }
@@ -132,7 +132,7 @@ void CheckCrosses(const Section& section, const SignalPlan& signal) {
 SonarModel ReadSonar(const std::optional<Section>& section, Nanoseconds tick_period) {
   SonarModel sonar;
   if (!section) return sonar;
-  if (const auto tier = section->Choice("tier")) {
+  if (const auto tier = section->Enum("tier")) {
     sonar.tier = static_cast<SonarTier>(*tier);  // numbered alike; a test holds them together
   }
   sonar.blind_m = section->NumberOr(sonar.blind_m, "blind_m", {0, 1, "m"});
@@ -166,7 +166,7 @@ Wall ReadWall(const Section& section) {
 Obstacle ReadObstacle(const Section& section) {
   Obstacle obstacle;
   ReadShape(section, &obstacle);
-  obstacle.start_world = ReadStart(section.RequiredSub("start"), 0.0);
+  obstacle.start_world = ReadStart(section.RequiredChild("start"), 0.0);
   ReadCourse(section, &obstacle);
   return obstacle;
 }
@@ -181,7 +181,7 @@ Door ReadDoor(const Section& section) {
   door.offset_s = section.NumberOr(door.offset_s, "offset_s", kPhase);
   const double speed_m_s = Norm(door.to_world - door.from_world) / door.move_s;
   if (speed_m_s > kFastest_m_s) {
-    section.Complain("move_s",
+    section.AddError("move_s",
                      fmt::format("makes the leaf slide at {:.4g} m/s; at most {} are allowed",
                                  speed_m_s, kFastest_m_s),
                      "give it more time");
@@ -191,9 +191,9 @@ Door ReadDoor(const Section& section) {
 
 SignalPlan ReadSignal(const Section& section) {
   SignalPlan signal;
-  signal.id = SignalId{section.Whole("id", kId)};
-  signal.group = section.WholeOr(signal.group, "group", {0, kId.high});
-  if (const auto line = section.RequiredSub("line")) {
+  signal.id = SignalId{section.Uint("id", kId)};
+  signal.group = section.UintOr(signal.group, "group", {0, kId.high});
+  if (const auto line = section.RequiredChild("line")) {
     const Ends ends = ReadEnds(*line, "stop line");
     signal.line_from_world = ends.from_world;
     signal.line_to_world = ends.to_world;

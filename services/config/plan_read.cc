@@ -16,7 +16,7 @@ FaultKind ReadKind(const Section& section) {
   const int named = static_cast<int>(section.Has("kill")) + static_cast<int>(section.Has("dark")) +
                     static_cast<int>(section.Has("silent"));
   if (named != 1) {
-    section.Complain(
+    section.AddError(
         "", fmt::format("names {} of kill, dark and silent", named == 0 ? "none" : "more than one"),
         "write exactly one of them");
   }
@@ -27,33 +27,33 @@ FaultKind ReadKind(const Section& section) {
 void ReadSignalFault(const Section& section, const KnownIds& known, PlannedFault* fault) {
   for (const char* field : {"dark", "silent"}) {
     if (!section.Has(field)) continue;
-    fault->signal = SignalId{section.Whole(field, kId)};
+    fault->signal = SignalId{section.Uint(field, kId)};
     if (fault->signal != kNoSignal && !known.signals.contains(fault->signal)) {
-      section.Complain(field, "no signal has this id", "name the id of a signal of this file");
+      section.AddError(field, "no signal has this id", "name the id of a signal of this file");
     }
   }
   if (section.Has("before_crossing_m")) {
-    section.Complain("before_crossing_m", "is a condition of kill only", "write at_s: instead");
+    section.AddError("before_crossing_m", "is a condition of kill only", "write at_s: instead");
   } else if (!section.Has("at_s")) {
-    section.ComplainMissing("at_s", "write at_s: with the seconds since the start signal");
+    section.AddMissingError("at_s", "write at_s: with the seconds since the start signal");
   }
 }
 
 void ReadKill(const Section& section, const Section& root, const KnownIds& known,
               PlannedFault* fault) {
-  fault->vehicle = VehicleId{section.Whole("kill", kId)};
-  if (fault->vehicle != kNobody && !known.vehicles.contains(fault->vehicle)) {
-    section.Complain("kill", "no vehicle has this id", "name the id of a vehicle of this file");
+  fault->vehicle = VehicleId{section.Uint("kill", kId)};
+  if (fault->vehicle != kNoVehicle && !known.vehicles.contains(fault->vehicle)) {
+    section.AddError("kill", "no vehicle has this id", "name the id of a vehicle of this file");
   }
   if (section.Has("before_crossing_m")) {
     fault->before_crossing_m = section.Number("before_crossing_m", {0, 1000, "m", true});
     if (!root.Has("crossing")) {
-      section.Complain("before_crossing_m", "the scenario names no crossing",
+      section.AddError("before_crossing_m", "the scenario names no crossing",
                        "write crossing { x_m: y_m: } in the scenario");
     }
   }
   if (!fault->at_s && !fault->before_crossing_m) {
-    section.Complain("", "the fault has no condition", "write at_s: or before_crossing_m:");
+    section.AddError("", "the fault has no condition", "write at_s: or before_crossing_m:");
   }
 }
 
@@ -66,10 +66,10 @@ std::vector<VehicleId> ReadIds(const Section& section, const char* field, const 
     const VehicleId id{static_cast<std::uint32_t>(numbers[i])};
     const int index = static_cast<int>(i);
     if (!known.vehicles.contains(id) && !known.joining.contains(id)) {
-      section.Complain(field, fmt::format("no vehicle has the id {}", Number(id)),
+      section.AddError(field, fmt::format("no vehicle has the id {}", Number(id)),
                        "name ids of vehicles of this file", index);
     } else if (!ids.insert(id).second) {
-      section.Complain(field, fmt::format("names {} twice", Number(id)), "name each id once",
+      section.AddError(field, fmt::format("names {} twice", Number(id)), "name each id once",
                        index);
     }
   }
@@ -80,7 +80,7 @@ std::vector<VehicleId> ReadIds(const Section& section, const char* field, const 
 bool ReadAny(const Section& section, const char* field, const char* ids) {
   const bool any = section.FlagOr(false, field);
   if (any && section.Has(ids)) {
-    section.Complain(field, fmt::format("is given together with {}", ids), "remove one of the two");
+    section.AddError(field, fmt::format("is given together with {}", ids), "remove one of the two");
   }
   return any;
 }
@@ -92,30 +92,30 @@ void CheckGoals(const Section& section, const KnownIds& known, const Scenario& s
   const auto expected = [&](VehicleId id) {
     return std::binary_search(arrived.begin(), arrived.end(), id);
   };
-  const auto complain = [&](VehicleId id) {
-    section.Complain(
+  const auto add_error = [&](VehicleId id) {
+    section.AddError(
         "arrived",
         fmt::format("vehicle {} has no goal, or a route that loops, and never arrives", Number(id)),
         "give it a goal and no loop, or leave it out here");
   };
   for (const VehicleOptions& vehicle : scenario.vehicles) {
-    if (!HasGoal(vehicle) && expected(vehicle.id)) complain(vehicle.id);
+    if (!HasGoal(vehicle) && expected(vehicle.id)) add_error(vehicle.id);
   }
   const auto& spawns = scenario.spawns;
   if (std::any_of(spawns.begin(), spawns.end(), HasGoal)) return;
   for (const VehicleId id : known.joining) {
-    if (expected(id)) complain(id);
+    if (expected(id)) add_error(id);
   }
 }
 
 // Why a vehicle halts; at least one must then be allowed to.
 std::optional<Rule> ReadReason(const Section& section, const Expectation& expect) {
   constexpr std::array kAsNumberedInTheSchema = {Rule::kGiveWay, Rule::kNotGranted, Rule::kPeerLost,
-                                                 Rule::kDeaf};
-  const std::optional<int> reason = section.Choice("halted_for");
+                                                 Rule::kUnidentifiedMotion};
+  const std::optional<int> reason = section.Enum("halted_for");
   if (!reason) return std::nullopt;
   if (expect.halted.empty() && !expect.any_halted) {
-    section.Complain("halted_for", "is given, and no vehicle is expected to halt",
+    section.AddError("halted_for", "is given, and no vehicle is expected to halt",
                      "write halted or any_halted, or remove it");
   }
   return kAsNumberedInTheSchema[static_cast<std::size_t>(*reason)];
@@ -144,7 +144,7 @@ PlannedFault ReadFault(const Section& section, const Section& root, const KnownI
 Expectation ReadExpectation(const Section& section, const KnownIds& known,
                             const Scenario& scenario) {
   Expectation expect;
-  expect.contacts = section.WholeOr(0, "contacts", kWholeNumber);
+  expect.contacts = section.UintOr(0, "contacts", kWholeNumber);
   expect.halted = ReadIds(section, "halted", known);
   expect.arrived = ReadIds(section, "arrived", known);
   expect.any_halted = ReadAny(section, "any_halted", "halted");

@@ -20,11 +20,11 @@ PoseFixModel ReadPoseFix(const Section& section) {
 
 }  // namespace
 
-void ReadPoseKeeping(const Section& section, VehicleProfile* profile) {
-  const auto sensors = section.Sub("sensors");
-  const auto fixes = sensors ? sensors->Sub("pose_fix") : std::nullopt;
+void ReadPoseKeeping(const Section& section, RobotModel* profile) {
+  const auto sensors = section.Child("sensors");
+  const auto fixes = sensors ? sensors->Child("pose_fix") : std::nullopt;
   if (fixes) profile->pose_fix = ReadPoseFix(*fixes);
-  const auto errors = section.Sub("wheel_error");
+  const auto errors = section.Child("wheel_error");
   if (errors) {
     profile->wheel_error = {.diameter = errors->NumberOr(0, "diameter", kError),
                             .axle = errors->NumberOr(0, "axle", kError)};
@@ -36,7 +36,7 @@ void ReadPoseKeeping(const Section& section, VehicleProfile* profile) {
   }
   const double limit_m = profile->pose_limit_m;
   if (fixes && limit_m > 0 && profile->pose_fix.sigma_m > limit_m / 2) {
-    fixes->Complain("sigma_m",
+    fixes->AddError("sigma_m",
                     fmt::format("{} m is more than half of pose_limit_m ({} m): a vehicle that was "
                                 "lost would stay so, whatever fixes come",
                                 profile->pose_fix.sigma_m, limit_m),

@@ -3,12 +3,12 @@
 #pragma once
 
 #include "services/config/section.h"
-#include "services/types/profile.h"
+#include "services/types/robot_model.h"
 
 namespace giveway {
 
 // Of a profile section. What it does not write stays as it was, but for the limit: a section that
 // writes a sensor or wheel errors brings the usual one, unless the file sets another.
-void ReadPoseKeeping(const Section& section, VehicleProfile* profile);
+void ReadPoseKeeping(const Section& section, RobotModel* profile);
 
 }  // namespace giveway

@@ -30,7 +30,7 @@ std::string ReadName(const Section& root, const char* field, std::string fallbac
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   });
   if (!clean || name.empty() || name.size() > 64) {
-    root.Complain(field, "must be 1 to 64 of the characters a-z 0-9 _ -", "choose another name");
+    root.AddError(field, "must be 1 to 64 of the characters a-z 0-9 _ -", "choose another name");
   }
   return name;
 }
@@ -41,7 +41,7 @@ std::string ReadDescription(const Section& root) {
   const bool clean = std::none_of(text.begin(), text.end(), [](char c) {
     return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
   });
-  if (!clean) root.Complain("description", "holds control characters", "write one plain paragraph");
+  if (!clean) root.AddError("description", "holds control characters", "write one plain paragraph");
   return text;
 }
 
@@ -55,7 +55,7 @@ Nanoseconds ReadMilliseconds(const Section& root, const char* field, const Allow
 VehicleOptions ReadCommon(const Section& root) {
   VehicleOptions common;
   common.profile = PioneerP3dx();
-  ReadProfile(root.Sub("profile"), &common.profile);
+  ReadProfile(root.Child("profile"), &common.profile);
   common.behaviour = ReadBehaviour(root).value_or(common.behaviour);
   common.beacon_age_limit =
       ReadMilliseconds(root, "beacon_age_limit_ms", {15, 10000, "ms"}, common.beacon_age_limit);
@@ -63,7 +63,7 @@ VehicleOptions ReadCommon(const Section& root) {
       ReadMilliseconds(root, "tick_period_ms", {5, 1000, "ms"}, common.tick_period);
   // One beacon may be lost and the next late before a peer counts as silent.
   if (3 * common.tick_period > common.beacon_age_limit) {
-    root.Complain(
+    root.AddError(
         root.Has("tick_period_ms") ? "tick_period_ms" : "beacon_age_limit_ms",
         fmt::format("a beacon every {} ms cannot be guarded by an age limit of {} ms: "
                     "three ticks must fit",
@@ -76,7 +76,7 @@ VehicleOptions ReadCommon(const Section& root) {
   common.gate_enter_m = root.NumberOr(common.gate_enter_m, "gate_enter_m", {0, 100, "m", true});
   common.gate_exit_m = root.NumberOr(common.gate_exit_m, "gate_exit_m", {0, 100, "m", true});
   if (common.gate_enter_m >= common.gate_exit_m) {
-    root.Complain(root.Has("gate_enter_m") ? "gate_enter_m" : "gate_exit_m",
+    root.AddError(root.Has("gate_enter_m") ? "gate_enter_m" : "gate_exit_m",
                   fmt::format("the entry gate ({} m) must be below the exit gate ({} m)",
                               common.gate_enter_m, common.gate_exit_m),
                   "lower gate_enter_m or raise gate_exit_m");
@@ -85,16 +85,16 @@ VehicleOptions ReadCommon(const Section& root) {
 }
 
 void ReadSettings(const Section& root, const ScenarioOverrides& overrides, Scenario* scenario) {
-  if (!root.Has("name")) root.ComplainMissing("name", "write name: \"...\"");
+  if (!root.Has("name")) root.AddMissingError("name", "write name: \"...\"");
   scenario->name = ReadName(root, "name", "");
   scenario->description = ReadDescription(root);
   scenario->area = ReadName(root, "area", scenario->area);
-  scenario->seed = overrides.seed.value_or(root.WholeOr(scenario->seed, "seed", kWholeNumber));
+  scenario->seed = overrides.seed.value_or(root.UintOr(scenario->seed, "seed", kWholeNumber));
   const double written_s =
       root.NumberOr(scenario->duration_s, "duration_s", {kDuration.low, kDuration.high, "s"});
   scenario->duration_s = overrides.duration_s.value_or(written_s);
   if (overrides.duration_s && !kDuration.Contains(*overrides.duration_s)) {
-    root.Complain("",
+    root.AddError("",
                   fmt::format("the duration asked for instead, {} s, must be {}",
                               *overrides.duration_s, Describe(kDuration)),
                   "give another duration");
@@ -104,15 +104,15 @@ void ReadSettings(const Section& root, const ScenarioOverrides& overrides, Scena
   scenario->remove_after_s =
       root.NumberOr(scenario->remove_after_s, "remove_after_s", {0, 3600, "s"});
   scenario->watchdog_ticks =
-      root.WholeOr(scenario->watchdog_ticks, "watchdog_ticks", {1, 100, "ticks"});
-  if (const auto crossing = root.Sub("crossing")) scenario->crossing_world = ReadPoint(*crossing);
+      root.UintOr(scenario->watchdog_ticks, "watchdog_ticks", {1, 100, "ticks"});
+  if (const auto crossing = root.Child("crossing")) scenario->crossing_world = ReadPoint(*crossing);
 }
 
 // The sections of a repeated field, or none where there are too many to look at.
 std::vector<Section> Elements(const Section& root, const char* field, int most) {
   const int count = root.Count(field);
-  if (count <= most) return root.Subs(field);
-  root.Complain(field, fmt::format("is one of {}; at most {} are allowed", count, most),
+  if (count <= most) return root.Children(field);
+  root.AddError(field, fmt::format("is one of {}; at most {} are allowed", count, most),
                 "leave some out", most);
   return {};
 }
@@ -129,7 +129,7 @@ void SortById(std::vector<T>* values, std::vector<Section>* sections, const char
   for (const std::size_t i : order) {
     const T& value = (*values)[i];
     if (Number(value.id) != 0 && !sorted_values.empty() && sorted_values.back().id == value.id) {
-      (*sections)[i].Complain("id", fmt::format("another {} has this id too", what),
+      (*sections)[i].AddError("id", fmt::format("another {} has this id too", what),
                               fmt::format("give each {} its own id", what));
     }
     sorted_values.push_back(value);
@@ -143,29 +143,29 @@ void ReadStartWith(const Section& root, Scenario* scenario) {
   const std::size_t named = scenario->vehicles.size();
   if (scenario->spawns.empty()) {
     if (!root.Has("start_with")) return;
-    root.Complain("start_with", "is for an open fleet, and there is no spawn",
+    root.AddError("start_with", "is for an open fleet, and there is no spawn",
                   "write spawn { ... }, or remove it");
     return;
   }
   const auto all = static_cast<double>(named + scenario->spawns.size());
-  scenario->start_with = root.WholeOr(static_cast<std::uint32_t>(std::max<std::size_t>(named, 1)),
-                                      "start_with", {1, all, "vehicles"});
+  scenario->start_with = root.UintOr(static_cast<std::uint32_t>(std::max<std::size_t>(named, 1)),
+                                     "start_with", {1, all, "vehicles"});
 }
 
 void ReadFleet(const Section& root, const ScenarioOverrides& overrides, ReadScenario* read) {
   Scenario& scenario = read->scenario;
   VehicleOptions common = ReadCommon(root);
   scenario.tick_period = common.tick_period;
-  scenario.sonar = ReadSonar(root.Sub("sonar"), common.tick_period);
+  scenario.sonar = ReadSonar(root.Child("sonar"), common.tick_period);
   common.sonar_refresh = SonarRefresh(scenario.sonar, common.tick_period);
   common.sonar_noise = scenario.sonar.tier == SonarTier::kIdeal ? 0 : scenario.sonar.noise;
   if (!root.Has("vehicle") && !root.Has("spawn")) {
-    root.ComplainMissing("vehicle", "write vehicle { ... } or spawn { ... } at least once");
+    root.AddMissingError("vehicle", "write vehicle { ... } or spawn { ... } at least once");
   }
   read->vehicles = Elements(root, "vehicle", kMaxVehicles);
   read->spawns = Elements(root, "spawn", kMaxVehicles);
   if (read->vehicles.size() + read->spawns.size() > kMaxVehicles) {
-    root.Complain("",
+    root.AddError("",
                   fmt::format("has {} of vehicle and spawn together; at most {} are allowed",
                               read->vehicles.size() + read->spawns.size(), kMaxVehicles),
                   "leave some out");
@@ -195,7 +195,7 @@ void CheckGroups(const std::vector<SignalPlan>& signals, const std::vector<Secti
       return ShowGreenTogether(*head, signal);
     });
     if (other != heads.end()) {
-      sections[i].Complain(
+      sections[i].AddError(
           "group",
           fmt::format("signals {} and {} of this group are green or yellow at one time",
                       Number((*other)->id), Number(signal.id)),
@@ -231,9 +231,9 @@ void ReadImpairment(const Section& root, const KnownIds& known, Impairment* impa
     impairment->rules.push_back(ReadImpairmentRule(rule, known));
   }
   if (!root.Has("impair_seed")) return;
-  impairment->seed = root.Whole("impair_seed", kWholeNumber);
+  impairment->seed = root.Uint("impair_seed", kWholeNumber);
   if (!root.Has("impair")) {
-    root.Complain("impair_seed", "is given, and nothing is impaired",
+    root.AddError("impair_seed", "is given, and nothing is impaired",
                   "write impair { ... }, or remove it");
   }
 }
@@ -244,7 +244,7 @@ void ReadPlans(const Section& root, Scenario* scenario) {
   for (const Section& fault : Elements(root, "fault", kMaxFaults)) {
     scenario->faults.push_back(ReadFault(fault, root, known));
   }
-  if (const auto expect = root.RequiredSub("expect")) {
+  if (const auto expect = root.RequiredChild("expect")) {
     scenario->expect = ReadExpectation(*expect, known, *scenario);
   }
 }

@@ -156,7 +156,7 @@ double Section::CheckedNumber(std::string_view field, const Allowed& allowed, in
                   : reflection->GetRepeatedDouble(message, f, index);
   }
   if (allowed.Contains(value)) return value;  // never true of nan
-  Complain(field,
+  AddError(field,
            fmt::format("{}must be {}", std::isfinite(value) ? "" : "is not a finite number; ",
                        Describe(allowed)),
            "write a number in that range", index);
@@ -165,7 +165,7 @@ double Section::CheckedNumber(std::string_view field, const Allowed& allowed, in
 
 double Section::Number(std::string_view field, const Allowed& allowed) const {
   if (Has(field)) return CheckedNumber(field, allowed, -1);
-  ComplainMissing(field, fmt::format("write {}: with a number {}", field, Describe(allowed)));
+  AddMissingError(field, fmt::format("write {}: with a number {}", field, Describe(allowed)));
   return kUnusable;
 }
 
@@ -173,14 +173,14 @@ double Section::NumberOr(double fallback, std::string_view field, const Allowed&
   return Has(field) ? CheckedNumber(field, allowed, -1) : fallback;
 }
 
-std::uint32_t Section::Whole(std::string_view field, const Allowed& allowed) const {
+std::uint32_t Section::Uint(std::string_view field, const Allowed& allowed) const {
   const double value = Number(field, allowed);
   return std::isnan(value) ? 0 : static_cast<std::uint32_t>(value);
 }
 
-std::uint32_t Section::WholeOr(std::uint32_t fallback, std::string_view field,
-                               const Allowed& allowed) const {
-  return Has(field) ? Whole(field, allowed) : fallback;
+std::uint32_t Section::UintOr(std::uint32_t fallback, std::string_view field,
+                              const Allowed& allowed) const {
+  return Has(field) ? Uint(field, allowed) : fallback;
 }
 
 bool Section::FlagOr(bool fallback, std::string_view field) const {
@@ -193,7 +193,7 @@ std::vector<double> Section::Numbers(std::string_view field, const Allowed& allo
   const int size = Count(field);
   std::vector<double> numbers;
   if (size > most) {
-    Complain(field, fmt::format("has {} values; at most {} are allowed", size, most),
+    AddError(field, fmt::format("has {} values; at most {} are allowed", size, most),
              "leave some out");
     return numbers;
   }
@@ -215,7 +215,7 @@ std::vector<std::string> Section::Texts(std::string_view field) const {
   return texts;
 }
 
-std::optional<int> Section::Choice(std::string_view field) const {
+std::optional<int> Section::Enum(std::string_view field) const {
   if (!Has(field)) return std::nullopt;
   const FieldDescriptor* f = Find(*node_->message, field);
   const int value = node_->message->GetReflection()->GetEnumValue(*node_->message, f);
@@ -224,7 +224,7 @@ std::optional<int> Section::Choice(std::string_view field) const {
   for (int i = 0; i < f->enum_type()->value_count(); ++i) {
     names += (i == 0 ? "" : ", ") + f->enum_type()->value(i)->name();
   }
-  Complain(field, "must be one of " + names, "write one of these names");
+  AddError(field, "must be one of " + names, "write one of these names");
   return std::nullopt;
 }
 
@@ -242,24 +242,24 @@ Section Section::Child(std::string_view field, int index) const {
   return Section(std::make_shared<const Node>(std::move(child)));
 }
 
-std::optional<Section> Section::Sub(std::string_view field) const {
+std::optional<Section> Section::Child(std::string_view field) const {
   if (!Has(field)) return std::nullopt;
   return Child(field, -1);
 }
 
-std::optional<Section> Section::RequiredSub(std::string_view field) const {
-  if (!Has(field)) ComplainMissing(field, fmt::format("write {} {{ ... }}", field));
-  return Sub(field);
+std::optional<Section> Section::RequiredChild(std::string_view field) const {
+  if (!Has(field)) AddMissingError(field, fmt::format("write {} {{ ... }}", field));
+  return Child(field);
 }
 
-std::vector<Section> Section::Subs(std::string_view field) const {
+std::vector<Section> Section::Children(std::string_view field) const {
   const int size = Count(field);
   std::vector<Section> sections;
   for (int i = 0; i < size; ++i) sections.push_back(Child(field, i));
   return sections;
 }
 
-void Section::Complain(std::string_view field, std::string message, std::string remedy,
+void Section::AddError(std::string_view field, std::string message, std::string remedy,
                        int index) const {
   File& file = *node_->file;
   if (file.problems.Full()) return file.problems.Add({});
@@ -277,8 +277,8 @@ void Section::Complain(std::string_view field, std::string message, std::string 
   file.problems.Add(std::move(problem));
 }
 
-void Section::ComplainMissing(std::string_view field, std::string remedy) const {
-  Complain(field, "is required and missing", std::move(remedy));
+void Section::AddMissingError(std::string_view field, std::string remedy) const {
+  AddError(field, "is required and missing", std::move(remedy));
 }
 
 std::vector<Problem> Section::Problems() const { return node_->file->problems.Sorted(); }

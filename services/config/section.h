@@ -50,11 +50,11 @@ class Section {
 
   // Required numbers: kUnusable, or 0 for whole ones, where missing or refused.
   double Number(std::string_view field, const Allowed& allowed) const;
-  std::uint32_t Whole(std::string_view field, const Allowed& allowed) const;
+  std::uint32_t Uint(std::string_view field, const Allowed& allowed) const;
   // The fallback stands in for an absent field only; refused is kUnusable or 0 here too.
   double NumberOr(double fallback, std::string_view field, const Allowed& allowed) const;
-  std::uint32_t WholeOr(std::uint32_t fallback, std::string_view field,
-                        const Allowed& allowed) const;
+  std::uint32_t UintOr(std::uint32_t fallback, std::string_view field,
+                       const Allowed& allowed) const;
   bool FlagOr(bool fallback, std::string_view field) const;
   // Repeated numbers; none where there are more than `most`, which is a problem.
   std::vector<double> Numbers(std::string_view field, const Allowed& allowed, int most) const;
@@ -63,18 +63,18 @@ class Section {
   // Of a repeated field.
   std::vector<std::string> Texts(std::string_view field) const;
   // The number of an enum's value; nothing if absent or none the schema knows.
-  std::optional<int> Choice(std::string_view field) const;
+  std::optional<int> Enum(std::string_view field) const;
 
-  std::optional<Section> Sub(std::string_view field) const;
-  // As Sub, but its absence is a problem.
-  std::optional<Section> RequiredSub(std::string_view field) const;
-  std::vector<Section> Subs(std::string_view field) const;
+  std::optional<Section> Child(std::string_view field) const;
+  // As Child, but its absence is a problem.
+  std::optional<Section> RequiredChild(std::string_view field) const;
+  std::vector<Section> Children(std::string_view field) const;
 
   // Adds a problem about a field of this section, or about the section itself if `field` is empty.
   // An absent field is blamed on the line where the section starts.
-  void Complain(std::string_view field, std::string message, std::string remedy,
+  void AddError(std::string_view field, std::string message, std::string remedy,
                 int index = -1) const;
-  void ComplainMissing(std::string_view field, std::string remedy) const;
+  void AddMissingError(std::string_view field, std::string remedy) const;
   // Of the whole file so far, in order of lines.
   std::vector<Problem> Problems() const;
 

@@ -28,7 +28,7 @@ struct Overlaps {
 };
 
 StartShape ShapeOf(const VehicleOptions& vehicle) {
-  const VehicleProfile& profile = vehicle.profile;
+  const RobotModel& profile = vehicle.profile;
   return {profile.shape, vehicle.start_world, profile.body_radius_m, profile.box_half_m};
 }
 
@@ -90,15 +90,15 @@ std::string NameOf(const ReadScenario& read, std::size_t body) {
   return fmt::format("obstacle[{}]", body - vehicles - spawns);
 }
 
-void ComplainOfBody(const ReadScenario& read, const Starts& starts, std::size_t body,
-                    std::size_t other, const std::string& cause) {
+void AddBodyError(const ReadScenario& read, const Starts& starts, std::size_t body,
+                  std::size_t other, const std::string& cause) {
   const auto reach_m = [&](std::size_t i) {
     const StartShape& shape = starts.bodies[i];
     return shape.shape == BodyShape::kBox ? Norm(shape.box_half_m) : shape.radius_m;
   };
   const double distance_m = Norm(starts.bodies[body].world_from_body.position_world -
                                  starts.bodies[other].world_from_body.position_world);
-  starts.sections[body]->Complain(
+  starts.sections[body]->AddError(
       "start",
       fmt::format("{}{} overlaps {}: {:.3f} m between their centres", cause, NameOf(read, body),
                   NameOf(read, other), distance_m),
@@ -106,11 +106,11 @@ void ComplainOfBody(const ReadScenario& read, const Starts& starts, std::size_t 
                   reach_m(body) + reach_m(other) + 0.001));
 }
 
-void ComplainOfLine(const ReadScenario& read, const Starts& starts, std::size_t body,
-                    const StartLine& line, const std::string& cause, const std::string& line_name) {
+void AddLineError(const ReadScenario& read, const Starts& starts, std::size_t body,
+                  const StartLine& line, const std::string& cause, const std::string& line_name) {
   const double distance_m =
       DistanceToLine(starts.bodies[body].world_from_body.position_world, line);
-  starts.sections[body]->Complain("start",
+  starts.sections[body]->AddError("start",
                                   fmt::format("{}{} overlaps {}, {:.3f} m from its centre", cause,
                                               NameOf(read, body), line_name, distance_m),
                                   "move the start away from there");
@@ -118,15 +118,15 @@ void ComplainOfLine(const ReadScenario& read, const Starts& starts, std::size_t 
 
 // A leaf that would cut through a wall or another leaf. Meeting at a jamb is what doors do.
 void CheckDoors(const ReadScenario& read, const Starts& starts) {
-  const auto complain = [&](std::size_t door, const char* what, std::size_t other) {
-    read.doors[door].Complain("to", fmt::format("the leaf crosses {}[{}]", what, other),
+  const auto add_error = [&](std::size_t door, const char* what, std::size_t other) {
+    read.doors[door].AddError("to", fmt::format("the leaf crosses {}[{}]", what, other),
                               "let it end at the wall, or move it");
   };
   const auto meet_doors = [&](std::size_t a, std::size_t b) {
-    if (Cross(starts.doors[a], starts.doors[b])) complain(b, "door", a);
+    if (Cross(starts.doors[a], starts.doors[b])) add_error(b, "door", a);
   };
   const auto meet_wall = [&](std::size_t door, std::size_t wall) {
-    if (Cross(starts.doors[door], starts.walls[wall])) complain(door, "wall", wall);
+    if (Cross(starts.doors[door], starts.walls[wall])) add_error(door, "wall", wall);
   };
   Sweep(AllBounds(starts.doors), AllBounds(starts.walls), {meet_doors, meet_wall});
 }
@@ -135,7 +135,7 @@ void CheckGoal(const VehicleOptions& vehicle, const Section& section, const std:
   if (!vehicle.goal.set) return;
   const double distance_m = Norm(vehicle.start_world.position_world - vehicle.goal.at_world);
   if (distance_m <= vehicle.goal.radius_m) {
-    section.Complain("start",
+    section.AddError("start",
                      fmt::format("{}lies inside the vehicle's own goal, {:.3f} m from its centre",
                                  cause, distance_m),
                      "move start and goal apart, or leave the goal out");
@@ -149,13 +149,13 @@ void CheckStarts(const ReadScenario& read, const std::string& cause) {
   const std::vector<Overlaps> found = FindOverlaps(starts);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const auto [body, wall, door] = found[i];
-    if (body != kNone) ComplainOfBody(read, starts, i, body, cause);
+    if (body != kNone) AddBodyError(read, starts, i, body, cause);
     if (wall != kNone) {
-      ComplainOfLine(read, starts, i, starts.walls[wall], cause, fmt::format("wall[{}]", wall));
+      AddLineError(read, starts, i, starts.walls[wall], cause, fmt::format("wall[{}]", wall));
     }
     if (door != kNone) {
-      ComplainOfLine(read, starts, i, starts.doors[door], cause,
-                     fmt::format("the doorway of door[{}]", door));
+      AddLineError(read, starts, i, starts.doors[door], cause,
+                   fmt::format("the doorway of door[{}]", door));
     }
   }
   CheckDoors(read, starts);

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "services/types/math/pose.h"
-#include "services/types/profile.h"
+#include "services/types/robot_model.h"
 
 namespace giveway {
 

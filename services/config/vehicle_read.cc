@@ -19,7 +19,7 @@ Goal ReadGoal(const Section& section, double cruise_m_s, Nanoseconds tick_period
   goal.radius_m = section.NumberOr(goal.radius_m, "radius_m", {0, 100, "m", true});
   const double tick_travel_m = cruise_m_s * Seconds(tick_period);
   if (goal.radius_m < tick_travel_m) {
-    section.Complain("radius_m",
+    section.AddError("radius_m",
                      fmt::format("{} m is less than the {:.3f} m driven in a tick at cruise speed: "
                                  "the vehicle may jump over its goal",
                                  goal.radius_m, tick_travel_m),
@@ -32,7 +32,7 @@ void ReadWeights(const Section& section, const char* field,
                  std::array<double, kSensorCount>* weights) {
   const int count = section.Count(field);
   if (count != kFrontSensors && count != static_cast<int>(kSensorCount)) {
-    section.Complain(field, fmt::format("has {} values", count),
+    section.AddError(field, fmt::format("has {} values", count),
                      "write 8 values (front ring) or 16, in left and in right");
     return;
   }
@@ -47,7 +47,7 @@ BraitenbergWeights ReadBraitenberg(const Section& section, const BraitenbergWeig
   read.near_gate_m = section.NumberOr(read.near_gate_m, "near_gate_m", {0, 5, "m", true});
   read.far_gate_m = section.NumberOr(read.far_gate_m, "far_gate_m", {0, 5, "m", true});
   if (read.near_gate_m >= read.far_gate_m) {
-    section.Complain(section.Has("near_gate_m") ? "near_gate_m" : "far_gate_m",
+    section.AddError(section.Has("near_gate_m") ? "near_gate_m" : "far_gate_m",
                      fmt::format("the near gate ({} m) must be below the far gate ({} m)",
                                  read.near_gate_m, read.far_gate_m),
                      "lower the near gate or raise the far gate");
@@ -60,11 +60,11 @@ BraitenbergWeights ReadBraitenberg(const Section& section, const BraitenbergWeig
 }
 
 // The wheel on the outside, at top speed and in the tightest turn.
-void CheckWheels(const Section& section, const VehicleProfile& profile) {
+void CheckWheels(const Section& section, const RobotModel& profile) {
   const double fastest_rad_s =
       WheelsFromTwist(profile.drive, {profile.max_speed_m_s, profile.max_turn_rad_s}).right_rad_s;
   if (fastest_rad_s > kMaxWheel_rad_s) {
-    section.Complain("profile",
+    section.AddError("profile",
                      fmt::format("at top speed in the tightest turn a wheel rolls at {:.1f} rad/s: "
                                  "peers believe at most {}",
                                  fastest_rad_s, kMaxWheel_rad_s),
@@ -73,8 +73,8 @@ void CheckWheels(const Section& section, const VehicleProfile& profile) {
 }
 
 // The shape a section writes; one that writes none leaves the body as it was.
-void ReadBody(const Section& section, VehicleProfile* profile) {
-  const auto box = section.Sub("box");
+void ReadBody(const Section& section, RobotModel* profile) {
+  const auto box = section.Child("box");
   if (box) {
     profile->shape = BodyShape::kBox;
     profile->box_half_m = ReadBox(*box);
@@ -82,7 +82,7 @@ void ReadBody(const Section& section, VehicleProfile* profile) {
   }
   if (!section.Has("body_radius_m")) return;
   if (box) {
-    section.Complain("body_radius_m", "is given together with box, whose half diagonal it is",
+    section.AddError("body_radius_m", "is given together with box, whose half diagonal it is",
                      "remove one of the two");
     return;
   }
@@ -91,7 +91,7 @@ void ReadBody(const Section& section, VehicleProfile* profile) {
   profile->body_radius_m = section.Number("body_radius_m", {0.05, 10, "m"});
 }
 
-void ReadSensors(const std::optional<Section>& section, VehicleProfile* profile) {
+void ReadSensors(const std::optional<Section>& section, RobotModel* profile) {
   if (!section) return;
   profile->radar = section->FlagOr(profile->radar, "radar");
   profile->lidar = section->FlagOr(profile->lidar, "lidar");
@@ -100,9 +100,9 @@ void ReadSensors(const std::optional<Section>& section, VehicleProfile* profile)
 
 Route ReadRoute(const Section& section) {
   Route route;
-  const std::vector<Section> waypoints = section.Subs("waypoint");
+  const std::vector<Section> waypoints = section.Children("waypoint");
   if (waypoints.size() > kMaxWaypoints) {
-    section.Complain("waypoint", fmt::format("there are {} waypoints", waypoints.size()),
+    section.AddError("waypoint", fmt::format("there are {} waypoints", waypoints.size()),
                      fmt::format("keep at most {}", kMaxWaypoints));
     return route;
   }
@@ -111,7 +111,7 @@ Route ReadRoute(const Section& section) {
   }
   route.loop = section.FlagOr(false, "loop");
   if (route.loop && route.count == 0) {
-    section.Complain("loop", "is true without a waypoint", "write waypoints, or remove loop");
+    section.AddError("loop", "is true without a waypoint", "write waypoints, or remove loop");
   }
   return route;
 }
@@ -120,24 +120,24 @@ Route ReadRoute(const Section& section) {
 VehicleOptions ReadDriver(const Section& section, const VehicleOptions& common,
                           std::optional<Behaviour> forced) {
   VehicleOptions vehicle = common;
-  ReadProfile(section.Sub("profile"), &vehicle.profile);
+  ReadProfile(section.Child("profile"), &vehicle.profile);
   CheckWheels(section, vehicle.profile);
   const auto own = ReadBehaviour(section);  // read even where forced, for its problems
   vehicle.behaviour = forced.value_or(own.value_or(common.behaviour));
-  vehicle.start_world = ReadStart(section.RequiredSub("start"));
+  vehicle.start_world = ReadStart(section.RequiredChild("start"));
   // A refused top speed is a problem already; the vehicle's cruise is then judged by its own cap.
   const double top = vehicle.profile.max_speed_m_s;
   vehicle.cruise_m_s =
       section.Number("cruise_m_s", {0, top == top ? top : kMaxSpeed_m_s, "m/s", true});
-  if (const auto goal = section.Sub("goal")) {
+  if (const auto goal = section.Child("goal")) {
     vehicle.goal = ReadGoal(*goal, vehicle.cruise_m_s, vehicle.tick_period);
   }
   vehicle.braitenberg = WeightsOf(vehicle.behaviour);
-  if (const auto weights = section.Sub("braitenberg")) {
+  if (const auto weights = section.Child("braitenberg")) {
     vehicle.braitenberg = ReadBraitenberg(*weights, vehicle.braitenberg);
   }
   vehicle.route = ReadRoute(section);
-  if (const auto metric = section.Choice("distance_metric")) {
+  if (const auto metric = section.Enum("distance_metric")) {
     vehicle.distance_metric =
         static_cast<DistanceMetric>(*metric);  // numbered alike, as behaviours
   }
@@ -169,12 +169,12 @@ Vec2 ReadPoint(const Section& section) {
 }
 
 std::optional<Behaviour> ReadBehaviour(const Section& section) {
-  const std::optional<int> choice = section.Choice("behaviour");
+  const std::optional<int> choice = section.Enum("behaviour");
   if (!choice) return std::nullopt;
   return static_cast<Behaviour>(*choice);  // numbered alike; a test holds them together
 }
 
-void ReadProfile(const std::optional<Section>& section, VehicleProfile* profile) {
+void ReadProfile(const std::optional<Section>& section, RobotModel* profile) {
   if (!section) return;
   const auto read = [&](const char* field, const Allowed& allowed, double* value) {
     *value = section->NumberOr(*value, field, allowed);
@@ -188,7 +188,7 @@ void ReadProfile(const std::optional<Section>& section, VehicleProfile* profile)
   read("deceleration_m_s2", {0, 20, "m/s^2", true}, &profile->deceleration_m_s2);
   read("wheel_slip", {0, 0.5}, &profile->wheel_slip);
   read("encoder_noise", {0, 0.5}, &profile->encoder_noise);
-  ReadSensors(section->Sub("sensors"), profile);
+  ReadSensors(section->Child("sensors"), profile);
   ReadPoseKeeping(*section, profile);
   for (std::size_t i = kSensorCount / 2; i < kSensorCount; ++i) {
     profile->sonar[i].enabled = section->FlagOr(profile->sonar[i].enabled, "rear_sonar");
@@ -197,7 +197,7 @@ void ReadProfile(const std::optional<Section>& section, VehicleProfile* profile)
 
 VehicleOptions ReadVehicle(const Section& section, const VehicleOptions& common,
                            std::optional<Behaviour> forced) {
-  const VehicleId id{section.Whole("id", kId)};
+  const VehicleId id{section.Uint("id", kId)};
   VehicleOptions vehicle = ReadDriver(section, common, forced);
   vehicle.id = id;
   return vehicle;

@@ -14,7 +14,7 @@ inline constexpr Allowed kCoordinate{-10000, 10000, "m"};
 inline constexpr Allowed kId{1, 4294967295.0};
 
 // Applies what a section of the message Profile changes.
-void ReadProfile(const std::optional<Section>& section, VehicleProfile* profile);
+void ReadProfile(const std::optional<Section>& section, RobotModel* profile);
 // The point of a section with x_m and y_m.
 Vec2 ReadPoint(const Section& section);
 // The half sides of a section Box.

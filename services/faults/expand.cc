@@ -6,8 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "services/faults/channel.h"
 #include "services/faults/exclusion.h"
-#include "services/faults/hearing.h"
 #include "services/faults/kind_table.h"
 #include "services/faults/schedule_text.h"
 #include "services/types/math/math.h"

@@ -72,7 +72,7 @@ enum class Actor : std::uint8_t { kSupervisor, kHearer, kWorld, kAttacker };
 struct Target {
   enum class What : std::uint8_t { kVehicle, kWorld, kDiscoveryServer, kAll };
   What what = What::kVehicle;
-  VehicleId vehicle = kNobody;  // of kVehicle
+  VehicleId vehicle = kNoVehicle;  // of kVehicle
 
   friend constexpr bool operator==(const Target&, const Target&) = default;
 };

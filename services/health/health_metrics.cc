@@ -200,7 +200,7 @@ void AddTiming(const DriveFigures& timing, Metrics* metrics) {
   metrics->Summary("reaction_seconds", "Time from a cause to the response of the wheels.",
                    timing.Of(DriveFigure::kReaction));
   metrics->Summary("reaction_meters", "Distance driven from a cause to the response of the wheels.",
-                   timing.Of(DriveFigure::kReactionWay));
+                   timing.Of(DriveFigure::kReactionDistance));
   metrics->Summary("reaction_ratio", "The same as a share of the distance free at the cause.",
                    timing.Of(DriveFigure::kReactionShare));
   metrics->Summary(

@@ -108,8 +108,8 @@ bool WantsJson(const httplib::Request& request) {
          request.get_header_value("Accept").find("application/json") != std::string::npos;
 }
 
-void Tell(const char* what, const Reasons& reasons, const httplib::Request& request,
-          httplib::Response& response) {
+void Respond(const char* what, const Reasons& reasons, const httplib::Request& request,
+             httplib::Response& response) {
   constexpr int kUnavailable = 503;
   if (!reasons.empty()) response.status = kUnavailable;
   if (WantsJson(request)) {
@@ -133,10 +133,10 @@ httplib::Server::HandlerResponse OnlyGet(const httplib::Request& request,
 void Route(httplib::Server& server, const HealthPages& pages) {
   server.set_pre_routing_handler(OnlyGet);
   server.Get("/livez", [live = pages.not_live](const auto& request, auto& response) {
-    Tell("live", live(), request, response);
+    Respond("live", live(), request, response);
   });
   server.Get("/readyz", [ready = pages.not_ready](const auto& request, auto& response) {
-    Tell("ready", ready(), request, response);
+    Respond("ready", ready(), request, response);
   });
   server.Get("/metrics", [metrics = pages.metrics](const auto& /*request*/, auto& response) {
     response.set_content(metrics(), "text/plain; version=0.0.4; charset=utf-8");

@@ -21,7 +21,7 @@ class HealthService {
   // Does not serve where the flags name no port. Throws InputError.
   explicit HealthService(const ServiceFlags& flags) {
     if (flags.watchdog) watchdog_.emplace();
-    Tell();
+    Publish();
     if (flags.health_port == 0) return;
     server_.emplace(flags.health_address, static_cast<std::uint16_t>(flags.health_port),
                     HealthPages{.not_live = [this] { return WhyNotLive(); },
@@ -32,7 +32,7 @@ class HealthService {
   // The loop's own; not visible to others before Tell.
   Health& Now() { return now_; }
   // Puts it up, as of a loop that turns. Never waits.
-  void Tell() {
+  void Publish() {
     now_.loop.turned = SteadyNow();
     ++now_.loop.turns;
     board_.Publish(now_);

@@ -12,7 +12,7 @@ namespace giveway::link {
 class AdminLink {
  public:
   // The orders to this process that have come since the last call.
-  virtual std::vector<AdminOrder> TakeOrders() = 0;
+  virtual std::vector<AdminRequest> TakeAdminRequests() = 0;
   virtual void SendAnswer(const AdminAnswer& answer) = 0;
   // What the endpoints there are now run with.
   virtual std::vector<LiveValue> LiveQos() const = 0;

@@ -80,7 +80,7 @@ class DriveLink {
   // of the last request. Before the loop.
   virtual std::optional<RosterEntry> TakeRoster(const SessionId& session) = 0;
   // One sentence while discovery servers are to be used and none has answered; else empty.
-  virtual std::string WhyNobodyIsFound() const = 0;
+  virtual std::string WhyNoPeerIsFound() const = 0;
   // Gives the id back. Closing the link waits for a world to have heard it, but not later than a
   // moment after this call.
   virtual void SendLeave(const SessionId& session) = 0;

@@ -49,7 +49,7 @@ struct ObserverLink::Impl {
       const rtps::GUID_t& writer = info.sample_identity.writer_guid();
       const WriterEntry* const entry = names.Writers().Find(writer);
       Ours value;
-      if (entry == nullptr || entry->vehicle == kNobody ||
+      if (entry == nullptr || entry->vehicle == kNoVehicle ||
           entry->vehicle != VehicleId{sample.vehicle()} ||
           !owners.Spoke(entry->vehicle, ParticipantOf(writer))) {
         ++observed.refused;

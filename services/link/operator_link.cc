@@ -88,8 +88,8 @@ std::vector<VehicleId> OperatorLink::Announced() {
 
 bool OperatorLink::Reaches(VehicleId vehicle) const { return impl_->To(vehicle).HasReader(); }
 
-bool OperatorLink::Send(const AdminOrder& order) {
-  AdminOrder sealed = order;
+bool OperatorLink::Send(const AdminRequest& order) {
+  AdminRequest sealed = order;
   if (!impl_->key.empty()) sealed.seal = auth::SealOf(impl_->key, order);
   return impl_->To(order.vehicle).Write(ToWire(sealed));
 }

@@ -26,12 +26,12 @@ class OperatorLink {
 
   // The vehicles whose beacons are announced in the domain now, in order. Some may take no orders.
   std::vector<VehicleId> Announced();
-  // Starts to look for the vehicle; kNobody is the world. Once each. Throws LinkError.
+  // Starts to look for the vehicle; kNoVehicle is the world. Once each. Throws LinkError.
   void Seek(VehicleId vehicle);
   // Whether it would get an order now. It was sought.
   bool Reaches(VehicleId vehicle) const;
   // False if the library refused the order. It was sought, and is reached.
-  bool Send(const AdminOrder& order);
+  bool Send(const AdminRequest& order);
   // Everything that came since the last call. With a key, a refusal may come without a seal: of a
   // service that has another key, or finds the order's number used. Its seal is then 0.
   std::vector<AdminAnswer> Take();

@@ -236,8 +236,8 @@ Participant::Participant(const LinkOptions& options, const std::string& name,
   if (impairer_ != nullptr) impairer_->NameOwn(BytesOf(Prefix()));
 }
 
-std::string Participant::WhyNobodyIsFound() const {
-  if (servers_.empty() || listener_->HasFoundAnybody()) return {};
+std::string Participant::WhyNoPeerIsFound() const {
+  if (servers_.empty() || listener_->HasFoundAny()) return {};
   constexpr const char* kWhy =
       "no discovery server answers: does fast-discovery-server run there, and does UDP pass in "
       "both directions? (";
@@ -272,7 +272,7 @@ std::vector<std::string> Participant::TakeUnfit(SteadyTime now) {
     if (topic != read_topics_.end()) described.topic = topic->second;
     own.push_back(std::move(described));
   }
-  return unfit_.Judge(own, now);
+  return unfit_.Check(own, now);
 }
 
 dds::Topic& Participant::MakeTopic(const dds::TypeSupport& type, const std::string& topic_name) {

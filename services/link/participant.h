@@ -67,7 +67,7 @@ class Participant {
 
   const rtps::GuidPrefix_t& Prefix() const { return participant_->guid().guidPrefix; }
   // One sentence while this participant is a client whose servers have not answered; else empty.
-  std::string WhyNobodyIsFound() const;
+  std::string WhyNoPeerIsFound() const;
   // The same in words: "010f45d2a3b1000001000000".
   std::string PrefixText() const;
   // Of endpoints found about a second ago, those that do not match one of ours, and why.

@@ -15,8 +15,9 @@ void ParticipantNames::OnWriter(Change change, const rtps::GUID_t& writer,
     if (change == Change::kGone) {
       speakers_.erase(Identity(writer));
     } else if ((of_world || !BeaconArea(partitions).empty()) && speakers_.size() < kMostWriters) {
-      speakers_.try_emplace(Identity(writer), Speaker{of_world ? kNobody : NamedVehicle(partitions),
-                                                      ParticipantOf(writer), ++found_});
+      speakers_.try_emplace(Identity(writer),
+                            Speaker{of_world ? kNoVehicle : NamedVehicle(partitions),
+                                    ParticipantOf(writer), ++found_});
     }
   }
   writers_.OnWriter(change, writer, partitions);
@@ -35,7 +36,7 @@ bool ParticipantNames::Owns(VehicleId vehicle, const rtps::GUID_t& endpoint) con
 bool ParticipantNames::IsWorld(std::uint64_t participant) const {
   const std::scoped_lock lock(mutex_);
   return std::ranges::any_of(speakers_, [participant](const auto& speaker) {
-    return speaker.second.vehicle == kNobody && speaker.second.participant == participant;
+    return speaker.second.vehicle == kNoVehicle && speaker.second.participant == participant;
   });
 }
 

@@ -21,7 +21,7 @@ class ParticipantNames final : public DiscoveryListener {
   // The loop's side.
   WriterNames& Writers() { return writers_; }
   // Whether `endpoint` is of the participant that has spoken longest for the vehicle, of those that
-  // are there; kNobody is the world. Of a vehicle that is a writer of beacons.
+  // are there; kNoVehicle is the world. Of a vehicle that is a writer of beacons.
   bool Owns(VehicleId vehicle, const rtps::GUID_t& endpoint) const;
   // Whether the participant is there and speaks as a world.
   bool IsWorld(std::uint64_t participant) const;
@@ -30,7 +30,7 @@ class ParticipantNames final : public DiscoveryListener {
   static constexpr std::size_t kMostWriters = 16'384;
 
   struct Speaker {
-    VehicleId vehicle = kNobody;
+    VehicleId vehicle = kNoVehicle;
     std::uint64_t participant = 0;
     std::uint64_t found = 0;  // 1, 2, 3 ...
   };

@@ -110,7 +110,7 @@ bool SampleFilter::Allows(const rtps::CacheChange_t& change, const FilterOfTopic
   refused_.fetch_add(1, std::memory_order_relaxed);
   if (kept_.size() < kMostKept) {
     kept_.push_back({.sample = sample_,
-                     .vehicle = by_vehicle_ ? key.Vehicle().value_or(kNobody) : kNobody,
+                     .vehicle = by_vehicle_ ? key.Vehicle().value_or(kNoVehicle) : kNoVehicle,
                      .writer = Identity(change.writerGUID),
                      .counter = "strangers",
                      .field = wrong_key != nullptr ? "key" : "writer",

@@ -33,14 +33,14 @@ template <typename Wire, typename Ours>
 using OptionalInbox = std::optional<ScanInbox<Wire, Ours>>;
 
 // What is heard of a world: whose word counts, and how fast its ticks can come.
-struct WorldEar {
+struct WorldReaders {
   WorldBinding& binding;
   Nanoseconds tick_period;
 };
 
 template <typename Wire, typename Ours>
 OptionalInbox<Wire, Ours> MakeInboxIf(bool fitted, Participant& participant, VehicleId id,
-                                      const WorldEar& world, SampleFilter* filter) {
+                                      const WorldReaders& world, SampleFilter* filter) {
   if (!fitted) return std::nullopt;
   return ScanInbox<Wire, Ours>(participant.MakeReader<Wire>(VehiclePartition(id), filter), id,
                                world.binding, "scan", world.tick_period);
@@ -54,8 +54,8 @@ const Ours* NewestOf(OptionalInbox<Wire, Ours>& inbox, const WriterNames& names,
 
 // The sensors besides the ultrasonics.
 struct FittedSensors {
-  FittedSensors(VehicleId id, const VehicleProfile& profile, Participant& participant,
-                const WorldEar& world, SampleFilter* filter)
+  FittedSensors(VehicleId id, const RobotModel& profile, Participant& participant,
+                const WorldReaders& world, SampleFilter* filter)
       : radar(
             MakeInboxIf<wire::RadarScan, RadarScan>(profile.radar, participant, id, world, filter)),
         lidar(
@@ -115,7 +115,7 @@ struct Filters {
 // Everything that is named after the vehicle.
 struct OwnEndpoints {
   OwnEndpoints(const LinkOptions& options, const ServiceOptions& service, VehicleId id,
-               const VehicleProfile& profile, Participant& participant, WriterNames& names,
+               const RobotModel& profile, Participant& participant, WriterNames& names,
                ReaderEvents& events, WorldBinding& binding, Filters& filters)
       : beacon_writer(
             participant.MakeWriter<wire::Beacon>(options.area + '/' + VehiclePartition(id))),
@@ -212,7 +212,7 @@ struct VehicleLink::Impl {
   }
   void OpenSignals();
   // What the world says of the run's state; the impairment's blackouts are counted from its start.
-  std::optional<RosterEntry> NewestEntry(RosterInbox::Mark& told);
+  std::optional<RosterEntry> NewestEntry(RosterInbox::Mark& seen);
   OwnEndpoints& Own() {
     GIVEWAY_CHECK(own.has_value(), "VehicleLink used before Open");
     return *own;
@@ -230,8 +230,8 @@ struct VehicleLink::Impl {
   Participant participant;
   Writer<wire::Join> join_writer;
   RosterInbox roster;
-  RosterInbox::Mark told_to_join = 0;
-  RosterInbox::Mark told_to_step = 0;
+  RosterInbox::Mark seen_by_join = 0;
+  RosterInbox::Mark seen_by_step = 0;
   std::optional<JoinRequest> joined;                              // the last request
   std::optional<std::chrono::steady_clock::time_point> heard_by;  // of the leave notice, once sent
   PeerEvents peers;
@@ -255,8 +255,8 @@ void VehicleLink::Impl::OpenSignals() {
   signals.emplace(reader, *signal_events, world, service.tick_period);
 }
 
-std::optional<RosterEntry> VehicleLink::Impl::NewestEntry(RosterInbox::Mark& told) {
-  auto entry = roster.NewestAfter(told, names, LinkNow());
+std::optional<RosterEntry> VehicleLink::Impl::NewestEntry(RosterInbox::Mark& seen) {
+  auto entry = roster.NewestAfter(seen, names, LinkNow());
   if (entry && entry->run_state == RunState::kRunning && participant.ImpairerOrNull() != nullptr) {
     participant.ImpairerOrNull()->Start(LinkNow());
   }
@@ -265,7 +265,7 @@ std::optional<RosterEntry> VehicleLink::Impl::NewestEntry(RosterInbox::Mark& tol
 
 std::string VehicleLink::ParticipantText() const { return impl_->participant.PrefixText(); }
 
-std::string VehicleLink::WhyNobodyIsFound() const { return impl_->participant.WhyNobodyIsFound(); }
+std::string VehicleLink::WhyNoPeerIsFound() const { return impl_->participant.WhyNoPeerIsFound(); }
 
 std::string VehicleLink::InterfaceChange() const { return impl_->interfaces.Change(); }
 
@@ -297,7 +297,7 @@ void VehicleLink::FlushJoin(Nanoseconds timeout) { impl_->join_writer.WaitUntilH
 std::optional<RosterEntry> VehicleLink::TakeRoster(const SessionId& session) {
   GIVEWAY_CHECK(impl_->joined && impl_->joined->session == session, "not the session that joined");
   impl_->names.Update();
-  return impl_->NewestEntry(impl_->told_to_join);
+  return impl_->NewestEntry(impl_->seen_by_join);
 }
 
 void VehicleLink::SendLeave(const SessionId& session) {
@@ -305,23 +305,23 @@ void VehicleLink::SendLeave(const SessionId& session) {
   const bool knows = joined && joined->session == session;
   const SessionId secret = knows ? joined->secret : SessionId{};
   impl_->SendJoin({.session = session,
-                   .wanted = joined ? joined->wanted : kNobody,
+                   .wanted = joined ? joined->wanted : kNoVehicle,
                    .leaving = true,
                    .secret = secret});
   impl_->heard_by = std::chrono::steady_clock::now() + kLeaveTimeout;
 }
 
-void VehicleLink::Open(VehicleId id, const VehicleProfile& profile, bool signals) {
+void VehicleLink::Open(VehicleId id, const RobotModel& profile, bool signals) {
   Impl& link = *impl_;
   GIVEWAY_CHECK(!link.own.has_value(), "VehicleLink opened twice");
-  GIVEWAY_CHECK(id != kNobody);
+  GIVEWAY_CHECK(id != kNoVehicle);
   link.own.emplace(link.options, link.service, id, profile, link.participant, link.names,
                    link.events, link.world, link.filters);
   link.roster.NameOwn(id);
   link.world.ExpectScans(LinkNow());
   if (signals) link.OpenSignals();
   if (Impairer* const impairer = link.participant.ImpairerOrNull()) impairer->NameHearer(id);
-  link.told_to_step = link.told_to_join;
+  link.seen_by_step = link.seen_by_join;
   // A restarted world must not give another id to a vehicle that already drives as this one.
   if (link.joined && link.joined->wanted != id) {
     JoinRequest request = *link.joined;
@@ -356,7 +356,7 @@ Taken VehicleLink::Take(SteadyTime now) {
   taken.scans_skipped = own.ranges.Counters().skipped - skipped;
   own.sensors.Take(link.names, real_now, taken.inputs);
   if (link.signals) taken.inputs.signals = link.signals->Take(real_now);
-  taken.inputs.roster = link.NewestEntry(link.told_to_step);
+  taken.inputs.roster = link.NewestEntry(link.seen_by_step);
   own.beacons.Drain(now, link.taken_beacons, &link.qos_events);
   taken.beacon_latency = own.beacons.LongestLatency();
   for (const ReceivedBeacon& received : link.taken_beacons) {
@@ -392,12 +392,12 @@ void VehicleLink::FlushStatus(Nanoseconds timeout) {
   impl_->Own().status_writer.WaitUntilHeard(timeout);
 }
 
-std::vector<AdminOrder> VehicleLink::TakeOrders() {
-  std::vector<AdminOrder> orders;
+std::vector<AdminRequest> VehicleLink::TakeAdminRequests() {
+  std::vector<AdminRequest> orders;
   auto& reader = impl_->Own().order_reader;
   if (!reader) return orders;
   reader->TakeEach([&](const wire::Order& sample, const dds::SampleInfo&) {
-    AdminOrder order;
+    AdminRequest order;
     if (FromWire(sample, order)) orders.push_back(std::move(order));
   });
   return orders;

@@ -15,7 +15,7 @@
 #include "services/types/admin.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/impairment.h"
-#include "services/types/profile.h"
+#include "services/types/robot_model.h"
 #include "services/types/vehicle_io.h"
 
 namespace giveway::link {
@@ -30,7 +30,7 @@ class VehicleLink final : public AdminLink, public DriveLink {
 
   // The first twelve bytes of the GUIDs of all that is made here, hexadecimal.
   std::string ParticipantText() const;
-  std::string WhyNobodyIsFound() const override;
+  std::string WhyNoPeerIsFound() const override;
 
   void SendJoin(const JoinRequest& request) override;
   void FlushJoin(Nanoseconds timeout) override;
@@ -40,8 +40,8 @@ class VehicleLink final : public AdminLink, public DriveLink {
   // Makes every other endpoint, named after `id`: readers for the sensors the profile is fitted
   // with, and for signals if there are any. Once. Throws LinkError. From now on the join request
   // kept for later worlds asks for `id`, and Take delivers the roster entries of the session.
-  void Open(VehicleId id, const VehicleProfile& profile, bool signals);
-  void Open(VehicleId id) { Open(id, VehicleProfile{}, false); }
+  void Open(VehicleId id, const RobotModel& profile, bool signals);
+  void Open(VehicleId id) { Open(id, RobotModel{}, false); }
 
   // Those of a loop are for after Open.
   bool WaitForScan(Nanoseconds timeout) override;
@@ -57,7 +57,7 @@ class VehicleLink final : public AdminLink, public DriveLink {
   EffectiveBeaconQos BeaconQos() const override;
   std::optional<SteadyTime> BlackoutsSince() const override;
 
-  std::vector<AdminOrder> TakeOrders() override;
+  std::vector<AdminRequest> TakeAdminRequests() override;
   void SendAnswer(const AdminAnswer& answer) override;
   void FlushAnswer(Nanoseconds timeout) override;
   std::vector<LiveValue> LiveQos() const override;

@@ -17,7 +17,7 @@ bool HasReader(const std::optional<Writer<Wire>>& writer) {
 }  // namespace
 
 VehicleWriters::VehicleWriters(Participant& participant, VehicleId vehicle,
-                               const VehicleProfile& profile)
+                               const RobotModel& profile)
     : participant_(participant),
       ranges_(participant.MakeWriter<wire::RangeScan>(VehiclePartition(vehicle))),
       radar_(MakeWriterIf<wire::RadarScan>(profile.radar, participant, vehicle)),

@@ -6,13 +6,13 @@
 
 #include "services/link/participant.h"
 #include "services/types/check.h"
-#include "services/types/profile.h"
+#include "services/types/robot_model.h"
 
 namespace giveway::link {
 
 class VehicleWriters {
  public:
-  VehicleWriters(Participant& participant, VehicleId vehicle, const VehicleProfile& profile);
+  VehicleWriters(Participant& participant, VehicleId vehicle, const RobotModel& profile);
   ~VehicleWriters();
   VehicleWriters(const VehicleWriters&) = delete;
   VehicleWriters& operator=(const VehicleWriters&) = delete;

@@ -52,8 +52,8 @@ struct WorldLink::Impl {
         command_wait(command_reader.Entity()) {
     if (!service.takes_orders) return;
     order_reader.emplace(
-        participant.MakeReader<wire::Order>(VehiclePartition(kNobody), &order_ids));
-    answer_writer.emplace(participant.MakeWriter<wire::Answer>(VehiclePartition(kNobody)));
+        participant.MakeReader<wire::Order>(VehiclePartition(kNoVehicle), &order_ids));
+    answer_writer.emplace(participant.MakeWriter<wire::Answer>(VehiclePartition(kNoVehicle)));
   }
 
   void FollowDiscovery() {
@@ -107,10 +107,10 @@ void WorldLink::Impl::Receive(const wire::MotorCommand& sample, const dds::Sampl
   MotorCommand command;
   if (entry == nullptr) {
     ++counters.commands_unbound;
-  } else if (entry->vehicle == kNobody || entry->vehicle != VehicleId{sample.vehicle()}) {
+  } else if (entry->vehicle == kNoVehicle || entry->vehicle != VehicleId{sample.vehicle()}) {
     ++counters.commands_wrong_name;
     const std::string wanted =
-        entry->vehicle == kNobody ? "none" : std::to_string(Number(entry->vehicle));
+        entry->vehicle == kNoVehicle ? "none" : std::to_string(Number(entry->vehicle));
     NoteRefusal({.sample = "motor command",
                  .vehicle = VehicleId{sample.vehicle()},
                  .writer = entry->identity,
@@ -149,7 +149,7 @@ WorldLink::~WorldLink() = default;
 
 std::string WorldLink::ParticipantText() const { return impl_->participant.PrefixText(); }
 
-std::string WorldLink::WhyNobodyIsFound() const { return impl_->participant.WhyNobodyIsFound(); }
+std::string WorldLink::WhyNoPeerIsFound() const { return impl_->participant.WhyNoPeerIsFound(); }
 
 template <typename Scan>
 void WorldLink::Impl::Send(const Scan& scan) {
@@ -158,8 +158,8 @@ void WorldLink::Impl::Send(const Scan& scan) {
   CountWrite(found->second.Write(ToWire(scan)));
 }
 
-void WorldLink::OpenVehicle(VehicleId vehicle, const VehicleProfile& profile) {
-  GIVEWAY_CHECK(vehicle != kNobody);
+void WorldLink::OpenVehicle(VehicleId vehicle, const RobotModel& profile) {
+  GIVEWAY_CHECK(vehicle != kNoVehicle);
   impl_->writers.try_emplace(vehicle, impl_->participant, vehicle, profile);
 }
 
@@ -260,11 +260,11 @@ void WorldLink::SendFigures(const RunFigures& figures) {
   impl_->CountWrite(impl_->figures_writer.Write(ToWire(figures)));
 }
 
-std::vector<AdminOrder> WorldLink::TakeOrders() {
-  std::vector<AdminOrder> orders;
+std::vector<AdminRequest> WorldLink::TakeAdminRequests() {
+  std::vector<AdminRequest> orders;
   if (!impl_->order_reader) return orders;
   impl_->order_reader->TakeEach([&](const wire::Order& sample, const dds::SampleInfo&) {
-    AdminOrder order;
+    AdminRequest order;
     if (FromWire(sample, order)) orders.push_back(std::move(order));
   });
   return orders;

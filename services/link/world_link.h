@@ -46,12 +46,12 @@ class WorldLink final : public AdminLink {
   // The first twelve bytes of the GUIDs of all that is made here, hexadecimal.
   std::string ParticipantText() const;
   // One sentence while discovery servers are to be used and none has answered; else empty.
-  std::string WhyNobodyIsFound() const;
+  std::string WhyNoPeerIsFound() const;
 
   // Makes the writers of the vehicle's ranges and of the sensors its profile is fitted with.
   // Nothing if they are there.
-  void OpenVehicle(VehicleId vehicle, const VehicleProfile& profile);
-  void OpenRanges(VehicleId vehicle) { OpenVehicle(vehicle, VehicleProfile{}); }
+  void OpenVehicle(VehicleId vehicle, const RobotModel& profile);
+  void OpenRanges(VehicleId vehicle) { OpenVehicle(vehicle, RobotModel{}); }
   // The vehicle left: ends its writers and takes its roster entry back. It may come again, and may
   // not be sent scans until then. Nothing if it is not open.
   void CloseVehicle(VehicleId vehicle);
@@ -86,8 +86,8 @@ class WorldLink final : public AdminLink {
   void SendTruth(const Truth& truth);
   void SendEvent(const WorldEvent& event);
   void SendFigures(const RunFigures& figures);
-  // Orders to the world are addressed to kNobody, and so are its answers from it.
-  std::vector<AdminOrder> TakeOrders() override;
+  // Orders to the world are addressed to kNoVehicle, and so are its answers from it.
+  std::vector<AdminRequest> TakeAdminRequests() override;
   void SendAnswer(const AdminAnswer& answer) override;
   void FlushAnswer(Nanoseconds timeout);
   std::vector<LiveValue> LiveQos() const override;

@@ -57,9 +57,9 @@ struct Message {
 // Appends fields to bytes.
 class FieldWriter {
  public:
-  template <typename Whole>
-  void Put(Whole value) {
-    for (std::size_t i = 0; i < sizeof(Whole); ++i) {
+  template <typename Integer>
+  void Put(Integer value) {
+    for (std::size_t i = 0; i < sizeof(Integer); ++i) {
       bytes_ += static_cast<char>(static_cast<std::uint64_t>(value) >> (8 * i) & 0xffU);
     }
   }
@@ -81,14 +81,14 @@ class FieldReader {
  public:
   explicit FieldReader(std::string_view bytes) : rest_(bytes) {}
 
-  template <typename Whole>
-  Whole Get() {
-    const std::string_view taken = Take(sizeof(Whole));
+  template <typename Integer>
+  Integer Get() {
+    const std::string_view taken = Take(sizeof(Integer));
     std::uint64_t value = 0;
     for (std::size_t i = 0; i < taken.size(); ++i) {
       value |= static_cast<std::uint64_t>(static_cast<unsigned char>(taken[i])) << (8 * i);
     }
-    return static_cast<Whole>(value);
+    return static_cast<Integer>(value);
   }
   std::string_view GetText() { return Take(Get<std::uint32_t>()); }
   std::string_view Take(std::uint64_t size) {

@@ -2,7 +2,7 @@
 
 #include "services/link/fastdds/link_options.h"
 #include "services/link/fastdds/profile_file.h"
-#include "services/qos/check.h"
+#include "services/qos/profile_check.h"
 
 namespace giveway {
 

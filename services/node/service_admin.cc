@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "services/qos/check.h"
 #include "services/qos/order_check.h"
+#include "services/qos/profile_check.h"
 #include "services/qos/xml_tree.h"
 #include "services/runtime/process.h"
 #include "services/types/check.h"
@@ -63,11 +63,11 @@ void ServiceAdmin::AnswerResumed(std::uint64_t order, const std::string& rolled_
 bool ServiceAdmin::Serve() {
   if (trial_) return FinishTrial();
   if (pending_) return false;  // it is about to restart
-  for (const AdminOrder& order : link_.TakeOrders()) {
+  for (const AdminRequest& order : link_.TakeAdminRequests()) {
     if (order.vehicle != vehicle_ || !MayServe(order)) continue;
-    if (order.kind == OrderKind::kTell) {
+    if (order.kind == AdminRequestKind::kReportQos) {
       Answer(order.number, AnswerState::kInEffect);
-    } else if (order.kind == OrderKind::kKeepRing) {
+    } else if (order.kind == AdminRequestKind::kKeepRing) {
       Keep(order);
     } else if (lockstep_) {
       Answer(order.number, AnswerState::kRefused, "runs in lockstep, which nothing may disturb");
@@ -79,7 +79,7 @@ bool ServiceAdmin::Serve() {
 }
 
 // It is answered too: an operator with the wrong key, or a clock that is behind, must know.
-bool ServiceAdmin::MayServe(const AdminOrder& order) {
+bool ServiceAdmin::MayServe(const AdminRequest& order) {
   const std::string why = gate_.WhyNot(order);
   if (why.empty()) return true;
   if (refusal_lines_.Take(SteadyNow())) LogWarning("refused an order: " + why);
@@ -94,13 +94,13 @@ bool ServiceAdmin::MayServe(const AdminOrder& order) {
   return false;
 }
 
-void ServiceAdmin::Keep(const AdminOrder& order) {
+void ServiceAdmin::Keep(const AdminRequest& order) {
   if (keep_ && keep_()) return Answer(order.number, AnswerState::kInEffect);
   Answer(order.number, AnswerState::kRefused,
          "records no ring (--record-ring), or has kept as many as it may");
 }
 
-bool ServiceAdmin::Apply(const AdminOrder& order) {
+bool ServiceAdmin::Apply(const AdminRequest& order) {
   if (trial_) {
     Refuse(order, "it tries the profiles of another order");
     return false;
@@ -111,7 +111,7 @@ bool ServiceAdmin::Apply(const AdminOrder& order) {
     return false;
   }
   const std::vector<qos::Change> changes =
-      qos::ChangesFor(vehicle_ == kNobody ? qos::Role::kWorld : qos::Role::kVehicle,
+      qos::ChangesFor(vehicle_ == kNoVehicle ? qos::Role::kWorld : qos::Role::kVehicle,
                       ChangesBetween(in_use_, order.profiles));
   if (!qos::NeedsRestart(changes) && TakeNow(changes)) {
     in_use_ = order.profiles;
@@ -151,7 +151,7 @@ NewFlags ServiceAdmin::ToComeBack() const {
           {"--rolled-back", ""}};
 }
 
-void ServiceAdmin::Refuse(const AdminOrder& order, const std::string& why) {
+void ServiceAdmin::Refuse(const AdminRequest& order, const std::string& why) {
   LogWarning("refused the QoS of " + order.profiles.name + ": " + why);
   Answer(order.number, AnswerState::kRefused, why);
 }

@@ -24,7 +24,7 @@ namespace giveway {
 
 class ServiceAdmin {
  public:
-  // The link was made with `options`; `vehicle` is kNobody for a world. In lockstep nothing that
+  // The link was made with `options`; `vehicle` is kNoVehicle for a world. In lockstep nothing that
   // comes from outside the world may change a run, so orders to apply are refused.
   // `gate` says which orders are carried out at all. `keep` has the recording's ring kept: false
   // where there is none, or it is kept often enough.
@@ -46,14 +46,14 @@ class ServiceAdmin {
  private:
   bool IsTaken() const { return pending_ && !trial_; }
   // False where it may not be carried out, which is logged now and then.
-  bool MayServe(const AdminOrder& order);
+  bool MayServe(const AdminRequest& order);
   // True if it takes a restart.
-  bool Apply(const AdminOrder& order);
+  bool Apply(const AdminRequest& order);
   bool FinishTrial();
   // False if the library would not have them while it runs.
   bool TakeNow(const std::vector<qos::Change>& changes);
-  void Keep(const AdminOrder& order);
-  void Refuse(const AdminOrder& order, const std::string& why);
+  void Keep(const AdminRequest& order);
+  void Refuse(const AdminRequest& order, const std::string& why);
   void Answer(std::uint64_t order, AnswerState state, const std::string& reason = "");
 
   link::AdminLink& link_;
@@ -65,7 +65,7 @@ class ServiceAdmin {
   LineBudget refusal_answers_{8};  // an intruder may ask as often as it likes
   const std::function<bool()> keep_;
   QosProfiles in_use_;
-  std::optional<AdminOrder> pending_;
+  std::optional<AdminRequest> pending_;
   std::unique_ptr<ProgramTrial> trial_;  // of pending_
 };
 

@@ -11,7 +11,7 @@
 #include "services/link/qos_trial.h"
 #include "services/node/qos_at_start.h"
 #include "services/node/service_main.h"
-#include "services/runtime/way_back.h"
+#include "services/runtime/crash_fallback.h"
 
 namespace giveway {
 namespace {
@@ -37,16 +37,16 @@ class FormerQos {
   FormerQos(const ServiceFlags& flags, const StopSignal& stop)
       : resume_(flags.resume ? std::make_unique<HeldText>("resume", ToBytes(*flags.resume))
                              : nullptr),
-        way_back_({{"--qos", flags.former_qos},
-                   {"--former-qos", ""},
-                   {"--resume", resume_ ? resume_->Path() : ""}},
-                  "--rolled-back", stop) {}
+        crash_fallback_({{"--qos", flags.former_qos},
+                         {"--former-qos", ""},
+                         {"--resume", resume_ ? resume_->Path() : ""}},
+                        "--rolled-back", stop) {}
 
-  NewFlags Because(const std::string& why) const { return way_back_.Because(why); }
+  NewFlags Because(const std::string& why) const { return crash_fallback_.Because(why); }
 
  private:
   const std::unique_ptr<HeldText> resume_;
-  const WayBack way_back_;
+  const CrashFallback crash_fallback_;
 };
 
 }  // namespace

@@ -95,15 +95,15 @@ class Families {
   std::vector<MetricFamily> families_;
 };
 
-void AddHearing(Families* to) {
+void AddLiveness(Families* to) {
   to->Begin("giveway_vehicle_heard", "1 if something came of it within the last second.",
             MetricType::Gauge);
   for (const auto& [id, heard] : to->View().Heard().Vehicles()) {
-    to->Add({Families::Vehicle(id)}, heard.HearingAt(to->Now()) == Hearing::kHeard);
+    to->Add({Families::Vehicle(id)}, heard.LivenessAt(to->Now()) == Liveness::kHeard);
   }
   to->Begin("giveway_vehicle_left", "1 if its last status said that it leaves.", MetricType::Gauge);
   for (const auto& [id, heard] : to->View().Heard().Vehicles()) {
-    to->Add({Families::Vehicle(id)}, heard.HearingAt(to->Now()) == Hearing::kLeft);
+    to->Add({Families::Vehicle(id)}, heard.LivenessAt(to->Now()) == Liveness::kLeft);
   }
   to->Begin("giveway_vehicle_silence_seconds", "Time since its last sample.", MetricType::Gauge);
   for (const auto& [id, heard] : to->View().Heard().Vehicles()) {
@@ -214,9 +214,9 @@ void AddPackets(Families* to) {
 }
 
 void AddWorld(Families* to) {
-  const HeardWorld& world = to->View().Heard().World();
+  const WorldSnapshot& world = to->View().Heard().World();
   to->Begin("giveway_observer_world_heard", "1 if a world is heard.", MetricType::Gauge);
-  const bool heard = world.heard_at && to->Now() - *world.heard_at <= HeardFleet::kSilentAfter;
+  const bool heard = world.heard_at && to->Now() - *world.heard_at <= FleetSnapshot::kSilentAfter;
   to->Add({}, heard);
   to->Begin("giveway_observer_run_seconds", "Time since the start signal.", MetricType::Gauge);
   to->Add({}, world.time_s);
@@ -252,7 +252,7 @@ void AddObserver(const ObserverHealth& observer, Families* to) {
 
 std::string FleetMetrics(const FleetView& view, const ObserverHealth& observer, SteadyTime now) {
   Families families(view, now);
-  AddHearing(&families);
+  AddLiveness(&families);
   AddDriving(&families);
   AddPeers(&families);
   AddRefusals(&families);

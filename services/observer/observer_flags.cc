@@ -54,7 +54,7 @@ constexpr FlagHelp kFlags[] = {
 void ReadRos2(FlagValues* values, ObserverFlags* flags) {
   flags->ros2 = values->Switch("--ros2");
   flags->ros2_rate_hz = values->Number("--ros2-rate", {0.1, 100}).value_or(flags->ros2_rate_hz);
-  flags->ros2_domain = values->Whole("--ros2-domain", {1, 99}).value_or(0);
+  flags->ros2_domain = values->Uint("--ros2-domain", {1, 99}).value_or(0);
 }
 
 std::vector<std::string> Split(const std::string& list) {
@@ -70,12 +70,12 @@ void ReadFleet(FlagValues* values, const FindOnlyFleet& find, ObserverFlags* fla
   const auto interface = values->Text("--interface");
   if (interface) flags->interface = values->TextOr(flags->interface, "--interface");
   if (values->Text("--domain")) {
-    flags->domain = values->Whole("--domain", {1, 99}).value_or(0);
+    flags->domain = values->Uint("--domain", {1, 99}).value_or(0);
     return;
   }
   const OnlyFleet fleet = find();
   if (fleet.domain == 0) {
-    values->Complain("--domain", "is missing, and " + fleet.why, "fleetctl ls lists the fleets");
+    values->AddError("--domain", "is missing, and " + fleet.why, "fleetctl ls lists the fleets");
     return;
   }
   flags->domain = fleet.domain;
@@ -85,7 +85,7 @@ void ReadFleet(FlagValues* values, const FindOnlyFleet& find, ObserverFlags* fla
 ObserverFlags Read(FlagValues* values, const FindOnlyFleet& find) {
   ObserverFlags flags;
   flags.address = values->TextOr(flags.address, "--address");
-  flags.port = values->Whole("--port", {1, 65535}).value_or(flags.port);
+  flags.port = values->Uint("--port", {1, 65535}).value_or(flags.port);
   if (const auto what = values->Text("--health")) {
     flags.ask_health =
         what->empty() ? "ready" : values->OneOf("--health", {"live", "ready"}).value_or("ready");
@@ -96,9 +96,9 @@ ObserverFlags Read(FlagValues* values, const FindOnlyFleet& find) {
   flags.qos = ReadQosFlag(values);
   flags.scenario = values->Text("--scenario").value_or("");
   flags.area = values->Text("--area").value_or("");
-  flags.foxglove_port = values->Whole("--foxglove-port", {1, 65535}).value_or(flags.foxglove_port);
+  flags.foxglove_port = values->Uint("--foxglove-port", {1, 65535}).value_or(flags.foxglove_port);
   if (flags.foxglove_port == flags.port) {
-    values->Complain("--foxglove-port", "is the port of the page", "choose another, such as 8765");
+    values->AddError("--foxglove-port", "is the port of the page", "choose another, such as 8765");
   }
   flags.host_names = Split(values->Text("--host-name").value_or(""));
   ReadRos2(values, &flags);

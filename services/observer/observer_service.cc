@@ -55,7 +55,7 @@ link::LinkOptions Ros2LinkOptions(const ObserverFlags& flags, link::LinkOptions 
 
 // Of one that the scenario does not name: that of its places, for which of them it has is not
 // known.
-VehicleProfile ProfileOf(const std::optional<Scenario>& scenario, VehicleId id) {
+RobotModel ProfileOf(const std::optional<Scenario>& scenario, VehicleId id) {
   if (!scenario) return PioneerP3dx();
   const auto found = std::ranges::find(scenario->vehicles, id, &VehicleOptions::id);
   if (found != scenario->vehicles.end()) return found->profile;
@@ -124,7 +124,7 @@ ObserverService::~ObserverService() { board_.Close(); }
 PageAnswer ObserverService::Ready() {
   constexpr int kUnavailable = 503;
   const std::lock_guard lock(mutex_);
-  if (view_.Heard().Anybody()) return Text("ready\n");
+  if (view_.Heard().IsAnyHeard()) return Text("ready\n");
   return Text("not ready: no vehicle and no world was heard yet\n", kUnavailable);
 }
 

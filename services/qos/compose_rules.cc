@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "services/qos/compose.h"
-#include "services/qos/rules.h"
+#include "services/qos/qos_rules.h"
 
 namespace giveway::qos {
 namespace {

@@ -1,7 +1,7 @@
 // One writer or reader, whatever its topic: limits that contradict each other, and what Fast DDS
 // does with some values. One set serves the fleet, which may mix 2.9 and 3.1: a hazard of either
 // is a finding.
-#include "services/qos/rules.h"
+#include "services/qos/qos_rules.h"
 
 namespace giveway::qos {
 namespace {
@@ -30,7 +30,7 @@ class EndpointRules {
                          std::move(consequence), std::move(remedy)});
   }
   std::string Named(Policy policy) const {
-    return std::string(Info(policy).name) + " " + Said(profile_, policy);
+    return std::string(Info(policy).name) + " " + StatedValue(profile_, policy);
   }
 
   const Profile& profile_;
@@ -87,14 +87,14 @@ void EndpointRules::CheckLiveliness() {
   const std::int64_t lease = Number(Policy::kLease);
   if (lease == kInfinite || Number(Policy::kLiveliness) == kManualByTopic) return;
   Add(Severity::kError, "liveliness_masked", Policy::kLiveliness,
-      Named(Policy::kLiveliness) + " with a lease of " + Said(profile_, Policy::kLease),
+      Named(Policy::kLiveliness) + " with a lease of " + StatedValue(profile_, Policy::kLease),
       "In Fast DDS 2.9.1 any living participant refreshes it, so a dead vehicle counts as alive "
       "until its participant lease ends.",
       "MANUAL_BY_TOPIC, in the writer and in the reader");
   if (profile_.owner == Owner::kWriter && Number(Policy::kLivelinessAnnouncement) >= lease) {
     Add(Severity::kError, "announcement_above_lease", Policy::kLivelinessAnnouncement,
         Named(Policy::kLivelinessAnnouncement) + " is not below the lease of " +
-            Said(profile_, Policy::kLease),
+            StatedValue(profile_, Policy::kLease),
         "The library refuses the writer, and the service does not start.",
         "an announcement_period of a third of the lease");
   }

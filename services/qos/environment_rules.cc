@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "services/qos/rules.h"
+#include "services/qos/qos_rules.h"
 
 namespace giveway::qos {
 namespace {

@@ -2,7 +2,7 @@
 // its deadline and lease fit the rate they guard?
 #include <string>
 
-#include "services/qos/rules.h"
+#include "services/qos/qos_rules.h"
 
 namespace giveway::qos {
 namespace {
@@ -30,7 +30,7 @@ class FleetRules {
   void Add(Severity severity, const std::string& rule, Policy at, const std::string& against,
            std::string consequence, std::string remedy) {
     findings_.push_back({severity, rule, PlaceOf(profile_, at), profile_.name,
-                         std::string(Info(at).name) + " " + Said(profile_, at) + against,
+                         std::string(Info(at).name) + " " + StatedValue(profile_, at) + against,
                          std::move(consequence), std::move(remedy)});
   }
   std::string Every() const { return "; a sample comes every " + DurationText(period_); }
@@ -54,7 +54,7 @@ void FleetRules::CheckInstances() {
   const std::int64_t wanted = there * profile_.Number(Policy::kDepth);
   if (samples > 0 && samples < wanted && profile_.Number(Policy::kHistory) == kKeepLast) {
     Add(Severity::kWarning, "sample_limit", Policy::kMaxSamples,
-        "; " + std::to_string(there) + " vehicles with " + Said(profile_, Policy::kDepth) +
+        "; " + std::to_string(there) + " vehicles with " + StatedValue(profile_, Policy::kDepth) +
             " samples each need " + std::to_string(wanted),
         "Once the history is full, new samples are refused until old ones are taken.",
         "write 0 for unlimited");
@@ -108,7 +108,7 @@ void FleetRules::CheckLease() {
   } else if (lease < profile_.Number(Policy::kDeadline) &&
              profile_.Number(Policy::kDeadline) <= kLongestDeadline * period_) {
     Add(Severity::kWarning, "lease_below_deadline", Policy::kLease,
-        ", below the deadline of " + Said(profile_, Policy::kDeadline),
+        ", below the deadline of " + StatedValue(profile_, Policy::kDeadline),
         "A silent peer counts as gone before its deadline is missed, and the deadline says "
         "nothing.",
         "longer than the deadline: " + DurationText(5 * period_));
@@ -131,7 +131,7 @@ void FleetRules::CheckHistory() {
   if (profile_.Number(Policy::kDurability) < kTransientLocal ||
       profile_.Number(Policy::kReliability) != kReliable) {
     Add(Severity::kError, "late_joiner_unserved", Policy::kDurability,
-        ", reliability " + Said(profile_, Policy::kReliability),
+        ", reliability " + StatedValue(profile_, Policy::kReliability),
         "A late joiner never receives the sample, and waits for ever.",
         "RELIABLE and TRANSIENT_LOCAL, in the writer and in the reader");
   }

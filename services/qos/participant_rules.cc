@@ -2,7 +2,7 @@
 // remembered, and whether there are ports for all.
 #include <algorithm>
 
-#include "services/qos/rules.h"
+#include "services/qos/qos_rules.h"
 
 namespace giveway::qos {
 namespace {
@@ -39,8 +39,8 @@ class ParticipantRules {
   void Add(Severity severity, const std::string& rule, Policy at, const std::string& against,
            std::string consequence, std::string remedy) {
     AddAt(PlaceOf(profile_, at), severity, rule,
-          std::string(Info(at).name) + " " + Said(profile_, at) + against, std::move(consequence),
-          std::move(remedy));
+          std::string(Info(at).name) + " " + StatedValue(profile_, at) + against,
+          std::move(consequence), std::move(remedy));
   }
   void AddAt(const Place& place, Severity severity, const std::string& rule, std::string values,
              std::string consequence, std::string remedy) {
@@ -62,7 +62,7 @@ void ParticipantRules::CheckLease() {
   const std::int64_t announcement = Number(Policy::kAnnouncement);
   if (lease <= announcement) {
     Add(Severity::kError, "participant_lease_too_short", Policy::kParticipantLease,
-        " is not above the announcement period of " + Said(profile_, Policy::kAnnouncement),
+        " is not above the announcement period of " + StatedValue(profile_, Policy::kAnnouncement),
         "Living participants are forgotten between two announcements, or the library refuses to "
         "start.",
         "a lease of several announcement periods");
@@ -158,7 +158,8 @@ void ParticipantRules::CheckPorts() {
   }
   if (base + domain * kLastDomain + highest > kLastPort) {
     Add(Severity::kError, "port_out_of_range", Policy::kDomainGain,
-        "; port_base " + Said(profile_, Policy::kPortBase) + ", domains up to 99 reach port " +
+        "; port_base " + StatedValue(profile_, Policy::kPortBase) +
+            ", domains up to 99 reach port " +
             std::to_string(base + domain * kLastDomain + highest),
         "Participants of the higher domains have no port, and do not start.",
         "the default: 7400 and 250");

@@ -4,8 +4,8 @@
 
 #include "services/qos/deployment.h"
 #include "services/qos/profile_edit.h"
+#include "services/qos/qos_rules.h"
 #include "services/qos/request_offered.h"
-#include "services/qos/rules.h"
 
 namespace giveway::qos {
 namespace {
@@ -29,8 +29,8 @@ void CheckDiscovery(const ProfileSet& a, const ProfileSet& b, Findings* findings
                               Policy::kOffset2, Policy::kOffset3}) {
     if (one->Number(policy) == other->Number(policy)) continue;
     findings->push_back({Severity::kError, "discovery_mismatch", PlaceOf(*one, policy), one->name,
-                         std::string(Info(policy).name) + " " + Said(*one, policy) + ", and " +
-                             Said(*other, policy),
+                         std::string(Info(policy).name) + " " + StatedValue(*one, policy) +
+                             ", and " + StatedValue(*other, policy),
                          "The two no longer find each other, nor does an operator find both.",
                          "start the processes again with the new set, all at once"});
   }

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <set>
 
+#include "services/qos/qos_rules.h"
 #include "services/qos/request_offered.h"
-#include "services/qos/rules.h"
 
 namespace giveway::qos {
 namespace {
@@ -115,8 +115,8 @@ void AddMismatch(const Profile& writer, const Profile& reader, const MatchRule& 
   findings->push_back(
       {rule.enforced ? Severity::kError : Severity::kWarning, std::string(rule.name),
        PlaceOf(later, rule.policy), writer.name + " to " + reader.name,
-       "the writer offers " + Said(writer, rule.policy) + ", the reader requests " +
-           Said(reader, rule.policy),
+       "the writer offers " + StatedValue(writer, rule.policy) + ", the reader requests " +
+           StatedValue(reader, rule.policy),
        rule.enforced ? "The two never match, and the reader hears nothing."
                      : "Fast DDS matches them all the same; other DDS implementations do not.",
        "change one of the two: " + std::string(rule.rule)});
@@ -124,7 +124,7 @@ void AddMismatch(const Profile& writer, const Profile& reader, const MatchRule& 
 
 }  // namespace
 
-std::string Said(const Profile& profile, Policy policy) {
+std::string StatedValue(const Profile& profile, Policy policy) {
   const Value& value = profile[policy];
   std::string text = Text(policy, value.number);
   if (!value.given) return text + " (library default)";

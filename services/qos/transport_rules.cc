@@ -2,7 +2,7 @@
 // size.
 #include <algorithm>
 
-#include "services/qos/rules.h"
+#include "services/qos/qos_rules.h"
 
 namespace giveway::qos {
 namespace {
@@ -47,7 +47,7 @@ void TransportRules::CheckUse(const Participation& participation) {
   const Profile& profile = *set_.Find(Owner::kParticipant, participation.profile);
   if (profile.Number(Policy::kBuiltinTransports) != 0) {
     Add(Severity::kError, "builtin_transports", PlaceOf(profile, Policy::kBuiltinTransports),
-        profile.name, "useBuiltinTransports " + Said(profile, Policy::kBuiltinTransports),
+        profile.name, "useBuiltinTransports " + StatedValue(profile, Policy::kBuiltinTransports),
         "The services do not start: the builtin ones listen on every interface, and add shared "
         "memory unasked.",
         "false, and name the transports in <userTransports>");

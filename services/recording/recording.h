@@ -55,7 +55,7 @@ struct RecordedStep {
 // What a part starts with that is not the first of its recording.
 struct RecordedContinuation {
   std::uint32_t boot_epoch = 0;  // of the same life as the parts before
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   std::uint32_t part = 0;  // the first is 1
   std::uint32_t steps_before = 0;
 

@@ -74,7 +74,7 @@ void Visit(auto& fields, Is<WheelErrors> auto& errors) {
   fields(diameter, axle);
 }
 
-void Visit(auto& fields, Is<VehicleProfile> auto& profile) {
+void Visit(auto& fields, Is<RobotModel> auto& profile) {
   auto& [drive, shape, body_radius, box_half, max_speed, max_turn, acceleration, deceleration, slip,
          encoder_noise, half_angle, max_range, sonar, radar, lidar, camera, pose_fix, wheel_error,
          pose_limit] = profile;
@@ -92,7 +92,7 @@ void Visit(auto& fields, Is<VehicleOptions> auto& options) {
          sonar_noise, ageing_limit);
 }
 
-void Visit(auto& fields, Is<OrderKey> auto& key) {
+void Visit(auto& fields, Is<PriorityKey> auto& key) {
   auto& [waited_ticks, speed_bucket, vehicle] = key;
   fields(waited_ticks, speed_bucket, vehicle);
 }

@@ -26,7 +26,7 @@ RecordingFile::RecordingFile(std::istream* stream) : stream_(*stream) {
 
 void RecordingFile::Begin(Record first) {
   if (const auto* head = std::get_if<RecordedContinuation>(&first)) {
-    const bool is_one = head->part > 1 && head->boot_epoch != 0 && head->vehicle != kNobody;
+    const bool is_one = head->part > 1 && head->boot_epoch != 0 && head->vehicle != kNoVehicle;
     if (is_one) continues_ = *head;
     if (!is_one) complaint_ = "does not say which part of a recording it is";
     return;

@@ -43,7 +43,7 @@ void Set(const ReplayedFile& file, schema::ReplayedFile* message) {
 
 std::string Line(const ReplayedFile& file) {
   std::string text = file.file + ": ";
-  if (file.vehicle != kNobody) {
+  if (file.vehicle != kNoVehicle) {
     text += fmt::format("vehicle {}, {}{} steps the same", Number(file.vehicle),
                         file.part > 1 ? fmt::format("part {}, ", file.part) : "", file.steps);
   }
@@ -52,7 +52,7 @@ std::string Line(const ReplayedFile& file) {
                         Number(found->tick), found->field.field, found->field.recorded,
                         found->field.replayed);
   } else if (!file.finding.empty()) {
-    text += (file.vehicle == kNobody ? "" : "; ") + file.finding;
+    text += (file.vehicle == kNoVehicle ? "" : "; ") + file.finding;
   } else if (!file.complete) {
     text += "; then cut off: its writer died, or its disk took nothing more";
   } else if (!file.failure.empty()) {
@@ -64,7 +64,7 @@ std::string Line(const ReplayedFile& file) {
 
 }  // namespace
 
-Verdict Judge(const std::vector<ReplayedFile>& files) {
+Verdict OverallVerdict(const std::vector<ReplayedFile>& files) {
   const auto unreadable = [](const ReplayedFile& file) { return !file.finding.empty(); };
   if (files.empty() || std::ranges::any_of(files, unreadable)) return Verdict::kNotRun;
   const auto differs = [](const ReplayedFile& file) { return file.difference.has_value(); };
@@ -73,7 +73,7 @@ Verdict Judge(const std::vector<ReplayedFile>& files) {
 
 std::string ToJson(const std::vector<ReplayedFile>& files) {
   schema::ReplayReport message;
-  const Verdict verdict = Judge(files);
+  const Verdict verdict = OverallVerdict(files);
   message.set_verdict(verdict == Verdict::kPassed   ? schema::Report::passed
                       : verdict == Verdict::kFailed ? schema::Report::failed
                                                     : schema::Report::not_run);
@@ -92,7 +92,7 @@ std::string ToJson(const std::vector<ReplayedFile>& files) {
 std::string ToText(const std::vector<ReplayedFile>& files) {
   std::string text;
   for (const ReplayedFile& file : files) text += Line(file);
-  return text + fmt::format("{}: {} steps of {} recording{}\n", Reason(Judge(files)),
+  return text + fmt::format("{}: {} steps of {} recording{}\n", Reason(OverallVerdict(files)),
                             StepsOf(files), files.size(), files.size() == 1 ? "" : "s");
 }
 

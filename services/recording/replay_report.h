@@ -21,7 +21,7 @@ struct ReplayDifference {
 // Names and meanings are those of the JSON object; see idl/report.proto.
 struct ReplayedFile {
   std::string file;
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   std::uint32_t steps = 0;
   std::uint32_t part = 1;
   bool complete = false;
@@ -32,7 +32,7 @@ struct ReplayedFile {
 };
 
 // kNotRun if a file could not be replayed to its end, else kFailed if one differs.
-Verdict Judge(const std::vector<ReplayedFile>& files);
+Verdict OverallVerdict(const std::vector<ReplayedFile>& files);
 
 // One JSON object on one line.
 std::string ToJson(const std::vector<ReplayedFile>& files);

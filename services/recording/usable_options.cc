@@ -16,18 +16,18 @@ constexpr double kLeastLength_m = 1e-3;
 // checked scenario keeps in bounds must stay there.
 class Sober {
  public:
-  void operator()(const auto&... values) { (Look(values), ...); }
+  void operator()(const auto&... values) { (Check(values), ...); }
   bool Holds() const { return holds_; }
 
  private:
   template <typename T>
-  void Look(const T& value) {
+  void Check(const T& value) {
     if constexpr (std::is_same_v<T, double>) {
       holds_ = holds_ && std::isfinite(value) && std::abs(value) <= kMostNumber;
     } else if constexpr (std::is_same_v<T, Nanoseconds>) {
       holds_ = holds_ && value.count() >= 0 && value <= std::chrono::hours(24);
     } else if constexpr (requires { value.begin(); }) {
-      for (const auto& element : value) Look(element);
+      for (const auto& element : value) Check(element);
     } else if constexpr (std::is_class_v<T>) {
       Visit(*this, value);
     }
@@ -38,7 +38,7 @@ class Sober {
 }  // namespace
 
 std::string WhyUnusable(const VehicleOptions& options) {
-  const VehicleProfile& profile = options.profile;
+  const RobotModel& profile = options.profile;
   const double lengths[] = {profile.drive.wheel_radius_m, profile.drive.axle_m,
                             profile.body_radius_m,        profile.max_speed_m_s,
                             profile.max_turn_rad_s,       profile.acceleration_m_s2,
@@ -46,7 +46,7 @@ std::string WhyUnusable(const VehicleOptions& options) {
   Sober sober;
   sober(options);
   if (!sober.Holds()) return "options hold a number no vehicle has";
-  if (options.id == kNobody) return "options name no vehicle";
+  if (options.id == kNoVehicle) return "options name no vehicle";
   if (options.tick_period < std::chrono::milliseconds(1)) return "options have no tick";
   if (options.route.count > kMaxWaypoints) return "options have too long a route";
   if (std::ranges::any_of(lengths, [](double x) { return x < kLeastLength_m; }) ||

@@ -53,9 +53,9 @@ std::string ColourOf(const Scenario& scenario, VehicleId vehicle) {
   return index == scenario.vehicles.size() ? "#777777" : kColours[index % kColours.size()];
 }
 
-VehicleProfile ProfileOf(const Scenario& scenario, VehicleId vehicle) {
+RobotModel ProfileOf(const Scenario& scenario, VehicleId vehicle) {
   const VehicleOptions* found = Find(scenario, vehicle);
-  return found == nullptr ? VehicleProfile{} : found->profile;
+  return found == nullptr ? RobotModel{} : found->profile;
 }
 
 double BodyPixels(const Canvas& canvas, const Scenario& scenario, VehicleId vehicle) {
@@ -100,7 +100,7 @@ void DrawBox(Canvas* canvas, const Pose& world_from_box, Vec2 half_m, std::strin
                attributes);
 }
 
-void DrawBody(Canvas* canvas, const VehicleProfile& profile, const Pose& world_from_body,
+void DrawBody(Canvas* canvas, const RobotModel& profile, const Pose& world_from_body,
               std::string_view attributes) {
   const double radius_px = canvas->Pixels(profile.body_radius_m);
   constexpr double kSmallest_px = 3;  // as a disc it is still seen
@@ -111,7 +111,7 @@ void DrawBody(Canvas* canvas, const VehicleProfile& profile, const Pose& world_f
   }
 }
 
-void DrawHeading(Canvas* canvas, const VehicleProfile& profile, const Pose& world_from_body,
+void DrawHeading(Canvas* canvas, const RobotModel& profile, const Pose& world_from_body,
                  std::string_view attributes) {
   const double front_m =
       profile.shape == BodyShape::kBox ? profile.box_half_m.x : profile.body_radius_m;
@@ -174,7 +174,7 @@ double EndOf(const std::vector<WorldEvent>& events, std::size_t from) {
   double last_s = events[from].time_s;
   for (std::size_t i = from + 1; i < events.size(); ++i) {
     last_s = std::max(last_s, events[i].time_s);
-    if (events[i].kind == EventKind::kWentOn && events[i].vehicle == events[from].vehicle) {
+    if (events[i].kind == EventKind::kResumed && events[i].vehicle == events[from].vehicle) {
       return events[i].time_s;
     }
   }
@@ -305,7 +305,7 @@ void DrawContacts(Canvas* canvas, const std::vector<WorldEvent>& events) {
   for (const WorldEvent& event : events) {
     if (event.kind != EventKind::kContact) continue;
     // Of a wall, the other position is the point that was touched.
-    const Vec2 middle = event.other == kNobody
+    const Vec2 middle = event.other == kNoVehicle
                             ? event.other_position_world
                             : 0.5 * (event.position_world + event.other_position_world);
     const Pixel at = canvas->At(middle);
@@ -363,7 +363,7 @@ void DrawShape(Canvas* canvas, const Obstacle& obstacle) {
   const std::string style =
       fmt::format("fill=\"{0}\" fill-opacity=\"0.35\" stroke=\"{0}\" stroke-width=\"1.5\"",
                   moves ? "#9a6b3f" : "#5f6670");
-  VehicleProfile body;
+  RobotModel body;
   body.shape = obstacle.shape;
   body.body_radius_m = obstacle.radius_m;
   body.box_half_m = obstacle.box_half_m;

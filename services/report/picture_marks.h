@@ -20,7 +20,7 @@ Scenario WithJoined(const Scenario& scenario, const std::vector<Track>& tracks);
 // Distinguishes vehicles also for the colour-blind (Okabe and Ito 2008); repeats after seven.
 std::string ColourOf(const Scenario& scenario, VehicleId vehicle);
 // A vehicle that is not in the scenario has the default profile.
-VehicleProfile ProfileOf(const Scenario& scenario, VehicleId vehicle);
+RobotModel ProfileOf(const Scenario& scenario, VehicleId vehicle);
 // The disc that holds the body.
 double BodyPixels(const Canvas& canvas, const Scenario& scenario, VehicleId vehicle);
 
@@ -33,10 +33,10 @@ double HeadingAt(const Scenario& scenario, const std::vector<Track>& tracks, Veh
                  double time_s);
 
 void DrawBox(Canvas* canvas, const Pose& world_from_box, Vec2 half_m, std::string_view attributes);
-void DrawBody(Canvas* canvas, const VehicleProfile& profile, const Pose& world_from_body,
+void DrawBody(Canvas* canvas, const RobotModel& profile, const Pose& world_from_body,
               std::string_view attributes);
 // A line from the axle centre to the front.
-void DrawHeading(Canvas* canvas, const VehicleProfile& profile, const Pose& world_from_body,
+void DrawHeading(Canvas* canvas, const RobotModel& profile, const Pose& world_from_body,
                  std::string_view attributes);
 
 void DrawGrid(Canvas* canvas);

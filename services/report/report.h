@@ -17,8 +17,8 @@ enum class Verdict : std::uint8_t { kPassed, kFailed, kNotRun };
 struct FirstViolation {
   std::string invariant;
   Tick tick = kNoTick;
-  VehicleId vehicle = kNobody;
-  VehicleId other = kNobody;
+  VehicleId vehicle = kNoVehicle;
+  VehicleId other = kNoVehicle;
 };
 
 // The same of one of many virtual runs.

@@ -57,8 +57,8 @@ std::string Invariants(const Report& report) {
   const FirstViolation& first = report.first_violations.front();
   std::string text =
       fmt::format("BROKEN {}; first {} at tick {}", over, first.invariant, Number(first.tick));
-  if (first.vehicle != kNobody) text += fmt::format(", vehicle {}", Number(first.vehicle));
-  if (first.other != kNobody) text += fmt::format(" with {}", Number(first.other));
+  if (first.vehicle != kNoVehicle) text += fmt::format(", vehicle {}", Number(first.vehicle));
+  if (first.other != kNoVehicle) text += fmt::format(" with {}", Number(first.other));
   return text;
 }
 

@@ -10,7 +10,7 @@ namespace giveway {
 
 // What an observer saw of one vehicle, in order of ticks; gaps are possible.
 struct Track {
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   std::vector<Truth> truths;
 };
 

@@ -61,7 +61,7 @@ std::string LineOf(const SeedViolation& first) {
   std::string line =
       fmt::format("  seed {}, {:.2f} s (tick {}): {}, vehicle {}", first.seed, first.time_s,
                   Number(first.what.tick), first.what.invariant, Number(first.what.vehicle));
-  if (first.what.other != kNobody) line += fmt::format(" with {}", Number(first.what.other));
+  if (first.what.other != kNoVehicle) line += fmt::format(" with {}", Number(first.what.other));
   return line + fmt::format(", {}\n", first.rule);
 }
 

@@ -114,7 +114,7 @@ Transform BodyTransform(const Beacon& beacon, std::uint64_t stamp_ns) {
       {TimeOf(stamp_ns), kMapFrame}, BodyFrame(beacon.vehicle), pose.position, pose.orientation};
 }
 
-Transform SensorTransform(VehicleId vehicle, const VehicleProfile& profile, std::size_t sensor,
+Transform SensorTransform(VehicleId vehicle, const RobotModel& profile, std::size_t sensor,
                           std::uint64_t stamp_ns) {
   const SensorMount& mount = profile.sonar[sensor];
   return {{TimeOf(stamp_ns), BodyFrame(vehicle)},
@@ -123,7 +123,7 @@ Transform SensorTransform(VehicleId vehicle, const VehicleProfile& profile, std:
           QuaternionOf(mount.bearing_rad)};
 }
 
-Range RangeOf(VehicleId vehicle, const VehicleProfile& profile, std::size_t sensor,
+Range RangeOf(VehicleId vehicle, const RobotModel& profile, std::size_t sensor,
               const RangeReading& reading, std::uint64_t stamp_ns) {
   Range range;
   range.header = {TimeOf(stamp_ns), SensorFrame(vehicle, sensor)};

@@ -9,8 +9,8 @@
 
 #include "services/ros2/messages.h"
 #include "services/types/beacon.h"
-#include "services/types/profile.h"
 #include "services/types/range_scan.h"
+#include "services/types/robot_model.h"
 
 namespace giveway::ros2 {
 
@@ -34,10 +34,10 @@ Odometry OdometryOf(const Beacon& beacon, std::uint64_t stamp_ns);
 // base_link in map.
 Transform BodyTransform(const Beacon& beacon, std::uint64_t stamp_ns);
 // A sensor in base_link, x along the axis of its cone.
-Transform SensorTransform(VehicleId vehicle, const VehicleProfile& profile, std::size_t sensor,
+Transform SensorTransform(VehicleId vehicle, const RobotModel& profile, std::size_t sensor,
                           std::uint64_t stamp_ns);
 // Precondition: the reading has data. +infinity where nothing answered.
-Range RangeOf(VehicleId vehicle, const VehicleProfile& profile, std::size_t sensor,
+Range RangeOf(VehicleId vehicle, const RobotModel& profile, std::size_t sensor,
               const RangeReading& reading, std::uint64_t stamp_ns);
 
 // A cylinder with the vehicle's id, its colour by the mode as on the page; pale where the vehicle

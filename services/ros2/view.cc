@@ -20,7 +20,7 @@ View::View(double rate_hz, ProfileOf profile)
     : period_ns_(static_cast<std::uint64_t>(kSecond_ns / rate_hz)), profile_(std::move(profile)) {}
 
 View::Vehicle* View::Known(VehicleId id, std::uint64_t received_ns) {
-  if (id == kNobody) return nullptr;
+  if (id == kNoVehicle) return nullptr;
   auto known = vehicles_.find(id);
   if (known == vehicles_.end()) {
     if (vehicles_.size() >= kMostVehicles) return nullptr;

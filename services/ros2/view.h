@@ -13,8 +13,8 @@
 #include "services/ros2/messages.h"
 #include "services/types/beacon.h"
 #include "services/types/motor_command.h"
-#include "services/types/profile.h"
 #include "services/types/range_scan.h"
+#include "services/types/robot_model.h"
 
 namespace giveway::ros2 {
 
@@ -41,7 +41,7 @@ class View {
   // Beyond it vehicles that come are not shown.
   static constexpr std::size_t kMostVehicles = 256;
 
-  using ProfileOf = std::function<VehicleProfile(VehicleId)>;
+  using ProfileOf = std::function<RobotModel(VehicleId)>;
 
   // `profile` is asked once a vehicle, for where its ultrasonics sit.
   View(double rate_hz, ProfileOf profile);
@@ -66,7 +66,7 @@ class View {
     std::optional<RangeReading> fresh;  // not sent yet
   };
   struct Vehicle {
-    VehicleProfile profile;
+    RobotModel profile;
     std::optional<Stamped<Beacon>> beacon;
     bool beacon_is_new = false;
     std::optional<Stamped<MotorCommand>> command;  // not sent yet

@@ -15,8 +15,8 @@
 namespace giveway {
 
 struct Identity {
-  VehicleId vehicle = kNobody;  // that the world gave; of a world none
-  std::string participant;      // the first twelve bytes of its GUIDs, hexadecimal
+  VehicleId vehicle = kNoVehicle;  // that the world gave; of a world none
+  std::string participant;         // the first twelve bytes of its GUIDs, hexadecimal
 
   friend bool operator==(const Identity&, const Identity&) = default;
 };

@@ -97,10 +97,10 @@ class StateReader {
     } else if constexpr (std::is_same_v<T, double>) {
       *value = std::bit_cast<double>(Number64(8));
       sound_ = sound_ && std::abs(*value) <= kMostNumber;  // not of what is no number either
-    } else if constexpr (std::is_same_v<T, KnownHeading>) {
+    } else if constexpr (std::is_same_v<T, CachedHeading>) {
       Visit(*this, *value);
       RequireUnit(value->forward_world);
-    } else if constexpr (std::is_same_v<T, KnownBearing>) {
+    } else if constexpr (std::is_same_v<T, CachedBearing>) {
       Visit(*this, *value);
       RequireUnit(value->direction_world);
     } else if constexpr (std::is_same_v<T, PeerTable>) {
@@ -157,7 +157,7 @@ class StateReader {
 bool IsSensor(int sensor) { return sensor >= -1 && sensor < static_cast<int>(kSensorCount); }
 
 bool IsSound(const Peer& peer) {
-  if (peer.id == kNobody || peer.waiting_count > peer.waiting.size()) return false;
+  if (peer.id == kNoVehicle || peer.waiting_count > peer.waiting.size()) return false;
   if (peer.known && !IsInRange(peer.beacon)) return false;
   for (std::uint32_t i = 0; i < peer.waiting_count; ++i) {
     if (!IsInRange(peer.waiting[i])) return false;
@@ -166,7 +166,7 @@ bool IsSound(const Peer& peer) {
 }
 
 bool AreSound(std::span<const Peer> peers) {
-  VehicleId before = kNobody;
+  VehicleId before = kNoVehicle;
   for (const Peer& peer : peers) {
     if (!IsSound(peer) || peer.id <= before) return false;  // in the order of their ids
     before = peer.id;
@@ -232,7 +232,7 @@ bool IsSound(const VehicleState& state, const VehicleOptions& options) {
   const bool can_be_there =
       covariance.xx_m2 >= 0 && covariance.yy_m2 >= 0 && covariance.hh_rad2 >= 0;
   return state.published.boot_epoch != 0 && can_be_there && on_route &&
-         IsSensor(state.movers.deaf_sensor) && IsSensor(state.last.decision.sensor) &&
+         IsSensor(state.movers.unidentified_sensor) && IsSensor(state.last.decision.sensor) &&
          state.last.steer_side >= -1 && state.last.steer_side <= 1 &&
          (StateFields::SensorBitsOf(state.sensed.ranges) & ~kAllSensors) == 0 &&
          IsSound(state.sensed.ranges, options) && IsSound(state.motion.pose) &&

@@ -16,24 +16,26 @@ void Visit(auto& fields, Is<Twist> auto& twist) {
   fields(forward, turn);
 }
 
-void Visit(auto& fields, Is<KnownHeading> auto& known) {
+void Visit(auto& fields, Is<CachedHeading> auto& known) {
   auto& [heading, forward] = known;
   fields(heading, forward);
 }
 
-void Visit(auto& fields, Is<KnownBearing> auto& known) {
+void Visit(auto& fields, Is<CachedBearing> auto& known) {
   auto& [direction, heading] = known;
   fields(direction, heading);
 }
 
-void Visit(auto& fields, Is<OwnWay> auto& way) {
-  auto& [driven, turned] = way;
+void Visit(auto& fields, Is<OwnDisplacement> auto& displacement) {
+  auto& [driven, turned] = displacement;
   fields(driven, turned);
 }
 
 void Visit(auto& fields, Is<SensorView> auto& view) {
-  auto& [kind, range, tick, echo_tick, echo_before, missed, closing, streak, own, echo_way] = view;
-  fields(kind, range, tick, echo_tick, echo_before, missed, closing, streak, own, echo_way);
+  auto& [kind, range, tick, echo_tick, echo_before, missed, closing, streak, own,
+         echo_displacement] = view;
+  fields(kind, range, tick, echo_tick, echo_before, missed, closing, streak, own,
+         echo_displacement);
 }
 
 void Visit(auto& fields, Is<Encounter> auto& encounter) {
@@ -48,11 +50,11 @@ void Visit(auto& fields, Is<PeerTrust> auto& trust) {
 
 void Visit(auto& fields, Is<Peer> auto& peer) {
   auto& [id, boot_epoch, writer, last_seq, waiting_count, spoke, rival_spoke, received, known,
-         rivalled, deadline_missed, liveliness_lost, left, out_of_reach, encounter, trust, told,
-         beacon, waiting, waiting_received] = peer;
+         rivalled, deadline_missed, liveliness_lost, left, out_of_reach, encounter, trust,
+         stated_heading, beacon, waiting, waiting_received] = peer;
   fields(id, boot_epoch, writer, last_seq, waiting_count, spoke, rival_spoke, received, known,
-         rivalled, deadline_missed, liveliness_lost, left, out_of_reach, encounter, trust, told,
-         beacon, waiting, waiting_received);
+         rivalled, deadline_missed, liveliness_lost, left, out_of_reach, encounter, trust,
+         stated_heading, beacon, waiting, waiting_received);
 }
 
 template <typename Scan>
@@ -100,8 +102,8 @@ struct StateFields {
     fields(pose, heading, covariance);
   }
   static void Of(auto& fields, Is<RangeView> auto& view) {
-    auto& [sensors, echoes, spoke, spoke_tick, way, taken, any] = view;
-    fields(sensors, echoes, spoke, spoke_tick, way, taken, any);
+    auto& [sensors, echoes, spoke, spoke_tick, displacement, taken, any] = view;
+    fields(sensors, echoes, spoke, spoke_tick, displacement, taken, any);
   }
   // The cells row by row: which hold something, and what. Into an empty grid.
   static void Of(auto& fields, Is<ObstacleGrid> auto& grid) {
@@ -175,23 +177,23 @@ void Visit(auto& fields, Is<VehicleState> auto& state) {
          counters] = state;
   auto& [boot_epoch, seq, gives_way_to] = published;
   auto& [epoch, placed_in, tick, run_state] = world;
-  auto& [odometry, pose, reckoned, wheels, counted] = motion;
-  auto& [waypoint, arrived, way] = route;
-  auto& [nearest, aimless_ticks, detour, detour_tick, away, away_tick, caught, caught_ticks] =
+  auto& [odometry, pose, pose_tick, wheels, counted] = motion;
+  auto& [waypoint, arrived, bearing] = route;
+  auto& [nearest, no_progress_ticks, detour, detour_tick, away, away_tick, stuck, stuck_ticks] =
       progress;
   auto& [order, waited_ticks, waited, let_pass] = waiting;
-  auto& [deaf, deaf_sensor, deaf_since, turned_tick] = movers;
+  auto& [unidentified, unidentified_sensor, unidentified_since, turned_tick] = movers;
   auto& [decided_tick, decision, steer_side, blocked_by, blocked_tick] = last;
   auto& [ranges, grid, objects] = sensed;
   auto& [peers, signals, last_heard] = heard;
   auto& [scans_refused, signals_refused, beacons, qos, trust] = counters;
   static_cast<void>(grid);
-  fields(boot_epoch, seq, epoch, tick, placed_in, run_state, odometry, reckoned, wheels, counted,
-         way, waypoint, arrived, order, waited_ticks, waited, let_pass, deaf_since, turned_tick,
-         decided_tick, deaf, deaf_sensor, decision, gives_way_to, blocked_by, blocked_tick,
-         steer_side, nearest, aimless_ticks, detour, detour_tick, away, away_tick, caught,
-         caught_ticks, ranges, peers, signals, objects, last_heard, scans_refused, signals_refused,
-         beacons, qos, trust);
+  fields(boot_epoch, seq, epoch, tick, placed_in, run_state, odometry, pose_tick, wheels, counted,
+         bearing, waypoint, arrived, order, waited_ticks, waited, let_pass, unidentified_since,
+         turned_tick, decided_tick, unidentified, unidentified_sensor, decision, gives_way_to,
+         blocked_by, blocked_tick, steer_side, nearest, no_progress_ticks, detour, detour_tick,
+         away, away_tick, stuck, stuck_ticks, ranges, peers, signals, objects, last_heard,
+         scans_refused, signals_refused, beacons, qos, trust);
   if (fields.Has(StateFormat::kWithPose)) fields(pose);
 }
 

@@ -12,11 +12,11 @@ constexpr double kLeastObedience = 0.25;  // of what the brakes could have taken
 
 double Microseconds(Nanoseconds duration) { return Milliseconds(duration) * 1e3; }
 
-double WayOf(const VehicleProfile& profile, const WheelAngles& counted) {
+double WayOf(const RobotModel& profile, const WheelAngles& counted) {
   return profile.drive.wheel_radius_m / 2 * (counted.left_rad + counted.right_rad);
 }
 
-double Forward(const VehicleProfile& profile, const WheelSpeeds& wheels) {
+double Forward(const RobotModel& profile, const WheelSpeeds& wheels) {
   return TwistFromWheels(profile.drive, wheels).forward_m_s;
 }
 
@@ -63,7 +63,7 @@ DriveTiming::Moment DriveTiming::MomentOf(Tick tick) const {
   const Moment& known = moments_[Number(tick) % kRememberedTicks];
   if (known.tick == tick) return known;
   const Nanoseconds since = TicksBetween(tick, last_.tick) * options_.tick_period;
-  return {tick, last_.at - since, last_.way_m - speed_m_s_ * Seconds(since)};
+  return {tick, last_.at - since, last_.odometer_m - speed_m_s_ * Seconds(since)};
 }
 
 bool DriveTiming::Obeys(const Reaction& reaction) const {
@@ -78,9 +78,9 @@ std::optional<ReactionMargin> DriveTiming::SeekEnd() {
   if (!Obeys(*reaction_) && !given_up) return std::nullopt;
   const Reaction reaction = *reaction_;
   reaction_.reset();
-  const double driven_m = std::max(0.0, last_.way_m - reaction.cause.way_m);
+  const double driven_m = std::max(0.0, last_.odometer_m - reaction.cause.odometer_m);
   Add(DriveFigure::kReaction, Microseconds(last_.at - reaction.cause.at));
-  Add(DriveFigure::kReactionWay, driven_m * 1e6);
+  Add(DriveFigure::kReactionDistance, driven_m * 1e6);
   if (!reaction.free_m) return std::nullopt;
   const ReactionMargin margin{reaction.decided, driven_m, *reaction.free_m};
   Add(DriveFigure::kReactionShare, (1 - margin.ShareLeft()) * 1e6);
@@ -108,7 +108,7 @@ void DriveTiming::SeekBegin(const TurnSeen& turn) {
                .speed_m_s = speed_m_s_,
                .wanted_m_s = std::max(0.0, wanted_m_s)};
   if (!turn.evidence.free_m) return;
-  reaction_->free_m = *turn.evidence.free_m + std::max(0.0, last_.way_m - shown.way_m);
+  reaction_->free_m = *turn.evidence.free_m + std::max(0.0, last_.odometer_m - shown.odometer_m);
 }
 
 std::optional<ReactionMargin> DriveTiming::Note(const TurnSeen& turn) {

@@ -59,7 +59,7 @@ class DriveTiming {
   struct Moment {
     Tick tick = kNoTick;
     SteadyTime at{0};
-    double way_m = 0;  // the axle centre's, as the encoders counted it
+    double odometer_m = 0;  // the axle centre's, as the encoders counted it
   };
   // Of a decision that slows the vehicle down: until its wheels obey.
   struct Reaction {

@@ -10,10 +10,10 @@
 
 namespace giveway {
 
-enum class OrderKind : std::uint8_t {
-  kTell,      // say what you run with
-  kApply,     // run with these profiles: at once where that is enough, else after a restart
-  kKeepRing,  // keep permanently what the recording's ring holds now: recorder.h
+enum class AdminRequestKind : std::uint8_t {
+  kReportQos,  // say what you run with
+  kApply,      // run with these profiles: at once where that is enough, else after a restart
+  kKeepRing,   // keep permanently what the recording's ring holds now: recorder.h
 };
 
 // A profile set by value: its text, because the file may be on another machine, or another by now.
@@ -29,10 +29,10 @@ struct QosProfiles {
 // Of an order or an answer, by the operators' key: services/auth. All 0 without one.
 using Seal = std::array<std::uint8_t, 32>;
 
-struct AdminOrder {
-  VehicleId vehicle = kNobody;
+struct AdminRequest {
+  VehicleId vehicle = kNoVehicle;
   std::uint64_t number = 0;  // the operator's; the answer repeats it
-  OrderKind kind = OrderKind::kTell;
+  AdminRequestKind kind = AdminRequestKind::kReportQos;
   QosProfiles profiles;  // of kApply
   Seal seal{};
 };
@@ -53,7 +53,7 @@ struct LiveValue {
 };
 
 struct AdminAnswer {
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   std::uint64_t order = 0;
   AnswerState state = AnswerState::kInEffect;
   std::string reason;

@@ -15,16 +15,16 @@ namespace giveway {
 // Decides which vehicle has priority. Vehicles that waited beyond a limit come first, the longest
 // wait first; then the higher cruise-speed bucket; then the lower id. A strict total order over
 // distinct ids.
-struct OrderKey {
+struct PriorityKey {
   std::uint32_t waited_ticks = 0;  // whole ageing limits; 0 below the first
   std::uint32_t speed_bucket = 0;  // round(cruise / 0.05 m/s)
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
 
-  friend constexpr bool operator==(const OrderKey&, const OrderKey&) = default;
+  friend constexpr bool operator==(const PriorityKey&, const PriorityKey&) = default;
 };
 
 // True if `a` goes before `b`.
-constexpr bool GoesFirst(const OrderKey& a, const OrderKey& b) {
+constexpr bool PrecedesByKey(const PriorityKey& a, const PriorityKey& b) {
   if (a.waited_ticks != b.waited_ticks) return a.waited_ticks > b.waited_ticks;
   if (a.speed_bucket != b.speed_bucket) return a.speed_bucket > b.speed_bucket;
   return a.vehicle < b.vehicle;
@@ -32,14 +32,15 @@ constexpr bool GoesFirst(const OrderKey& a, const OrderKey& b) {
 
 // The same for keys that may be inherited: of two vehicles that act by one key its owner goes last,
 // for the other blocks it; of two that inherited it the lower id goes first.
-constexpr bool ComesFirst(const OrderKey& a, VehicleId id_a, const OrderKey& b, VehicleId id_b) {
-  if (a != b) return GoesFirst(a, b);
+constexpr bool HasPriority(const PriorityKey& a, VehicleId id_a, const PriorityKey& b,
+                           VehicleId id_b) {
+  if (a != b) return PrecedesByKey(a, b);
   if (a.vehicle == id_a) return false;
   return b.vehicle == id_b || id_a < id_b;
 }
 
 struct Beacon {
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   std::uint32_t boot_epoch = 0;  // random, one a process life; never 0
   std::uint32_t seq = 0;         // 1, 2, 3 … within a boot epoch
   WorldEpoch world_epoch = kNoEpoch;
@@ -57,10 +58,10 @@ struct Beacon {
   Vec2 toward_world;
   Mode mode = Mode::kHalt;
   Rule rule = Rule::kNotRunning;
-  VehicleId gives_way_to = kNobody;
-  VehicleId blocked_by = kNobody;  // a vehicle whose body, standing or slower, blocks it
+  VehicleId gives_way_to = kNoVehicle;
+  VehicleId blocked_by = kNoVehicle;  // a vehicle whose body, standing or slower, blocks it
   // The key it acts by: its own, or inherited from the first in the order that it blocks.
-  OrderKey order;
+  PriorityKey order;
 };
 
 // A beacon as the link hands it to the brain.

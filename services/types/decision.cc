@@ -48,7 +48,7 @@ std::string_view Name(Rule rule) {
       return "not_granted";
     case Rule::kPeerLost:
       return "peer_lost";
-    case Rule::kDeaf:
+    case Rule::kUnidentifiedMotion:
       return "deaf";
     case Rule::kObstacle:
       return "obstacle";

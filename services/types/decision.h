@@ -29,24 +29,24 @@ enum class Mode : std::uint8_t {
 // Why the wheels turn as they do. The most restrictive rule wins; its name goes into command,
 // beacon, status and log.
 enum class Rule : std::uint8_t {
-  kCruise,       // nothing limits: drive to the goal
-  kNotRunning,   // the world waits or has ended
-  kArrived,      // the goal is reached
-  kRangesStale,  // own ranges too old or missing
-  kGiveWay,      // the peer comes first in the order
-  kNotGranted,   // first in the order, but the peer has not said that it gives way
-  kPeerLost,     // a peer on a conflicting path fell silent
-  kDeaf,         // something moves in critical distance and no fresh beacon explains it
-  kObstacle,     // something stands in the own path
-  kSteerRound,   // turning past a halted peer that gives way
-  kAvoid,        // Braitenberg weights steer away
-  kSignal,       // a fresh traffic light on the own path says stop
-  kKeepClear,    // no further than where a peer cannot be, whatever it does
-  kMakeRoom,     // turning aside for one that comes first and cannot pass
-  kObject,       // radar or lidar: an object whose place and motion make it an obstacle
-  kLeaving,      // stopping in good order
-  kUnsure,       // slower: soon it will not know any more where it is
-  kLost,         // it does not know well enough where it is: it stands until a fix says so
+  kCruise,              // nothing limits: drive to the goal
+  kNotRunning,          // the world waits or has ended
+  kArrived,             // the goal is reached
+  kRangesStale,         // own ranges too old or missing
+  kGiveWay,             // the peer comes first in the order
+  kNotGranted,          // first in the order, but the peer has not said that it gives way
+  kPeerLost,            // a peer on a conflicting path fell silent
+  kUnidentifiedMotion,  // something moves in critical distance and no fresh beacon explains it
+  kObstacle,            // something stands in the own path
+  kSteerRound,          // turning past a halted peer that gives way
+  kAvoid,               // Braitenberg weights steer away
+  kSignal,              // a fresh traffic light on the own path says stop
+  kKeepClear,           // no further than where a peer cannot be, whatever it does
+  kMakeRoom,            // turning aside for one that comes first and cannot pass
+  kObject,              // radar or lidar: an object whose place and motion make it an obstacle
+  kLeaving,             // stopping in good order
+  kUnsure,              // slower: soon it will not know any more where it is
+  kLost,                // it does not know well enough where it is: it stands until a fix says so
 };
 inline constexpr Rule kLastRule = Rule::kLost;
 
@@ -58,7 +58,7 @@ constexpr bool StaysPut(Rule rule) {
 // True for the rules that count as giving way to another vehicle (the verdict's `halted`).
 constexpr bool IsGiveWay(Rule rule) {
   return rule == Rule::kGiveWay || rule == Rule::kNotGranted || rule == Rule::kPeerLost ||
-         rule == Rule::kDeaf;
+         rule == Rule::kUnidentifiedMotion;
 }
 
 std::string_view Name(Behaviour behaviour);
@@ -69,8 +69,8 @@ std::string_view Name(Rule rule);
 struct Decision {
   Mode mode = Mode::kHalt;
   Rule rule = Rule::kNotRunning;
-  VehicleId peer = kNobody;  // kNobody where no peer is the reason
-  int sensor = -1;           // index of the deciding ultrasonic, -1 where none is
+  VehicleId peer = kNoVehicle;  // kNoVehicle where no peer is the reason
+  int sensor = -1;              // index of the deciding ultrasonic, -1 where none is
   // Tick of the scan or beacon that first showed the cause; kNoTick where time alone was the cause.
   Tick cause_tick = kNoTick;
 

@@ -26,14 +26,14 @@ using SessionId = std::array<std::uint32_t, 4>;
 
 struct JoinRequest {
   SessionId session{};
-  VehicleId wanted = kNobody;  // kNobody asks for any free id
-  bool leaving = false;        // gives the id back and takes the body away
-  SessionId secret{};          // that the session is made of (services/auth); 0: none
+  VehicleId wanted = kNoVehicle;  // kNoVehicle asks for any free id
+  bool leaving = false;           // gives the id back and takes the body away
+  SessionId secret{};             // that the session is made of (services/auth); 0: none
 };
 
 struct RosterEntry {
   SessionId session{};
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   bool accepted = false;
   bool waiting = false;  // not accepted yet, but may be later: the world keeps the request
   std::string reason;    // why not, or why the run ended; empty otherwise
@@ -49,7 +49,7 @@ struct RosterEntry {
 
 // Ground truth of one vehicle at one tick. For observers only; a vehicle never reads it.
 struct Truth {
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   WorldEpoch epoch = kNoEpoch;
   Tick tick = kNoTick;
   double time_s = 0;  // since the start signal; negative before it
@@ -63,7 +63,7 @@ struct Truth {
 enum class EventKind : std::uint8_t {
   kStarted,   // the run starts; value: fleet size
   kHalted,    // vehicle stood still to give way to other; text: the rule that started it
-  kWentOn,    // vehicle moves again after a halt, or has left the goal it stood in
+  kResumed,   // vehicle moves again after a halt, or has left the goal it stood in
   kArrived,   // vehicle stands in its goal; value: seconds since the start
   kContact,   // vehicle and other started to touch
   kClosest,   // at the end: the closest approach; value: shell-to-shell metres
@@ -74,7 +74,7 @@ enum class EventKind : std::uint8_t {
   kLeft,      // vehicle sent a leave notice; its body was taken away
   kEnded,     // text: why; the verdict follows
   kVerdict,   // passed when value is 1; text: reason
-  // A fault of a schedule starts or ends in the world, of vehicle (kNobody: of all); text: kind,
+  // A fault of a schedule starts or ends in the world, of vehicle (kNoVehicle: of all); text: kind,
   // number and rule: "sonar_stuck 3 of flaky_sonar".
   kFaultBegan,
   kFaultOver,
@@ -86,8 +86,8 @@ struct WorldEvent {
   WorldEpoch epoch = kNoEpoch;
   Tick tick = kNoTick;
   double time_s = 0;
-  VehicleId vehicle = kNobody;
-  VehicleId other = kNobody;
+  VehicleId vehicle = kNoVehicle;
+  VehicleId other = kNoVehicle;
   Vec2 position_world;        // of vehicle
   Vec2 other_position_world;  // of other
   double value = 0;           // meaning by kind
@@ -113,11 +113,11 @@ struct RunFigures {
 
 // A vehicle's report of itself.
 struct VehicleStatus {
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   WorldEpoch epoch = kNoEpoch;
   Tick tick = kNoTick;
   Decision decision;
-  VehicleId gives_way_to = kNobody;
+  VehicleId gives_way_to = kNoVehicle;
   double forward_m_s = 0;
   std::optional<double> nearest_echo_m;
   std::uint32_t peers_heard = 0;  // with a fresh beacon
@@ -125,11 +125,11 @@ struct VehicleStatus {
   TrustCounters trust;
   std::uint32_t beacons_superseded = 0;  // overwritten in the reader before they were drained
   QosCounters qos;
-  VehicleId last_deadline_missed = kNobody;
-  VehicleId last_liveliness_lost = kNobody;
+  VehicleId last_deadline_missed = kNoVehicle;
+  VehicleId last_liveliness_lost = kNoVehicle;
   // The last event of all kinds, and the vehicle it was about; empty before the first.
   std::optional<QosEventKind> last_event;
-  VehicleId last_event_about = kNobody;
+  VehicleId last_event_about = kNoVehicle;
   std::uint32_t last_rejected_id = 0;  // id claimed by the last refused beacon
   double step_p99_us = 0;              // processor time of Vehicle::Step, of the last 1000
   double loop_max_ms = 0;              // longest time from scan to command so far

@@ -7,7 +7,7 @@ namespace giveway {
 
 // Names one vehicle. 0 is none; the world never assigns it.
 enum class VehicleId : std::uint32_t {};
-inline constexpr VehicleId kNobody{0};
+inline constexpr VehicleId kNoVehicle{0};
 
 // Counts the world's steps since the world's epoch started. 0 is "no tick".
 enum class Tick : std::uint32_t {};

@@ -29,8 +29,8 @@ enum class ImpairedSender : std::uint8_t { kAnyone, kVehicles, kWorld, kOneVehic
 // Probabilities are per packet, in [0, 1], and independent of each other.
 struct ImpairmentRule {
   ImpairedSender from = ImpairedSender::kAnyone;
-  VehicleId from_vehicle = kNobody;  // of kOneVehicle
-  VehicleId to_vehicle = kNobody;    // the receiver; kNobody: every vehicle
+  VehicleId from_vehicle = kNoVehicle;  // of kOneVehicle
+  VehicleId to_vehicle = kNoVehicle;    // the receiver; kNoVehicle: every vehicle
   double loss = 0;
   // Gilbert-Elliott: a share of the time is bad and loses packets with probability burst_loss. A
   // bad time lasts burst_length packets on average.

@@ -9,7 +9,7 @@
 namespace giveway {
 
 struct MotorCommand {
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   WorldEpoch epoch = kNoEpoch;
   Tick tick = kNoTick;  // the scan this command answers
   WheelSpeeds target;   // rad/s; the world limits acceleration and speed

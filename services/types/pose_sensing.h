@@ -59,7 +59,7 @@ struct PoseFix {
   Pose world_from_body;  // the heading means nothing where it has no deviation
   double sigma_position_m = 0;
   double sigma_heading_rad = 0;  // 0: the fix says nothing of the heading
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   WorldEpoch epoch = kNoEpoch;
   Tick tick = kNoTick;
 };

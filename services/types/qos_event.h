@@ -30,7 +30,7 @@ constexpr std::string_view Name(QosEventKind kind) {
 
 struct QosEvent {
   QosEventKind kind = QosEventKind::kMatched;
-  VehicleId vehicle = kNobody;  // that it is about; kNobody if the middleware could not say
+  VehicleId vehicle = kNoVehicle;  // that it is about; kNoVehicle if the middleware could not say
   SteadyTime at{0};
 };
 

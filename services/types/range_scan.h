@@ -7,7 +7,7 @@
 
 #include "services/types/ids.h"
 #include "services/types/math/pose.h"
-#include "services/types/profile.h"
+#include "services/types/robot_model.h"
 
 namespace giveway {
 
@@ -24,7 +24,7 @@ struct RangeReading {
 enum class RunState : std::uint8_t { kWaiting, kRunning, kEnded };
 
 struct RangeScan {
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   WorldEpoch epoch = kNoEpoch;
   Tick tick = kNoTick;
   RunState run_state = RunState::kWaiting;

@@ -24,7 +24,8 @@ std::string Describe(const FieldFault& fault) {
 
 std::string Describe(const Refusal& refusal) {
   std::string text = std::string("refuses a ") + refusal.sample;
-  if (refusal.vehicle != kNobody) text += " of vehicle " + std::to_string(Number(refusal.vehicle));
+  if (refusal.vehicle != kNoVehicle)
+    text += " of vehicle " + std::to_string(Number(refusal.vehicle));
   return text + ": " + refusal.why + " (" + refusal.counter + ')';
 }
 

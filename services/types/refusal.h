@@ -20,12 +20,12 @@ struct FieldFault {
 std::string Describe(const FieldFault& fault);
 
 struct Refusal {
-  const char* sample = "";      // "beacon", "motor command", "join"
-  VehicleId vehicle = kNobody;  // named by the writer's partition, or claimed by the sample
-  std::uint64_t writer = 0;     // identity of the writing endpoint
-  const char* counter = "";     // what counts it: "rejected_crc"
-  const char* field = "";       // as fleet.idl calls it
-  std::string why;              // "cruise_m_s is 7, must be 0 to 2.5"
+  const char* sample = "";         // "beacon", "motor command", "join"
+  VehicleId vehicle = kNoVehicle;  // named by the writer's partition, or claimed by the sample
+  std::uint64_t writer = 0;        // identity of the writing endpoint
+  const char* counter = "";        // what counts it: "rejected_crc"
+  const char* field = "";          // as fleet.idl calls it
+  std::string why;                 // "cruise_m_s is 7, must be 0 to 2.5"
   // It happens to a sound peer, too, for a moment: while a world or the peer restarts.
   bool passing = false;
 };

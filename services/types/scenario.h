@@ -28,7 +28,7 @@ enum class SonarTier : std::uint8_t {
   kCrosstalk,  // transducers of different vehicles that fire in one slot hear each other
 };
 
-// Numbers of the tiers above ideal. Sources: services/types/profile.h names the robot's.
+// Numbers of the tiers above ideal. Sources: services/types/robot_model.h names the robot's.
 struct SonarModel {
   SonarTier tier = SonarTier::kIdeal;
   double blind_m = 0.1;                           // what is nearer reads as this
@@ -83,7 +83,7 @@ enum class FaultKind : std::uint8_t {
 // A planned fault. Due when every given condition holds.
 struct PlannedFault {
   FaultKind kind = FaultKind::kKill;
-  VehicleId vehicle = kNobody;              // of kKill
+  VehicleId vehicle = kNoVehicle;           // of kKill
   std::optional<double> at_s;               // seconds since the start signal
   std::optional<double> before_crossing_m;  // the vehicle is this near to `crossing`
   SignalId signal = kNoSignal;              // of the signal faults, which need at_s

@@ -30,7 +30,7 @@ struct RadarDetection {
 };
 
 struct RadarScan {
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   WorldEpoch epoch = kNoEpoch;
   Tick tick = kNoTick;
   std::uint32_t count = 0;                                  // at most kMaxDetections
@@ -41,7 +41,7 @@ struct RadarScan {
 inline constexpr double kLidarRange_m = 10;
 
 struct LidarScan {
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   WorldEpoch epoch = kNoEpoch;
   Tick tick = kNoTick;
   std::array<Echo, kLidarBeams> echo{};
@@ -61,7 +61,7 @@ struct CameraObject {
 };
 
 struct CameraScan {
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   WorldEpoch epoch = kNoEpoch;
   Tick tick = kNoTick;
   std::uint32_t count = 0;                             // at most kMaxDetections

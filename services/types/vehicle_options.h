@@ -8,7 +8,7 @@
 #include "services/types/decision.h"
 #include "services/types/ids.h"
 #include "services/types/math/distance.h"
-#include "services/types/profile.h"
+#include "services/types/robot_model.h"
 #include "services/types/task_progress.h"
 #include "services/types/time.h"
 
@@ -59,9 +59,9 @@ BraitenbergWeights StockWeights();
 BraitenbergWeights WeightsOf(Behaviour behaviour);
 
 struct VehicleOptions {
-  VehicleId id = kNobody;
+  VehicleId id = kNoVehicle;
   Behaviour behaviour = Behaviour::kCooperative;
-  VehicleProfile profile;
+  RobotModel profile;
   double cruise_m_s = 0.3;  // 0 < cruise <= profile.max_speed_m_s
   Goal goal;
   Route route;

@@ -20,7 +20,7 @@ std::optional<double> FreeOf(const Situation& s, const Decision& decision) {
       }
       return std::nullopt;
     case Rule::kObstacle:
-    case Rule::kDeaf:
+    case Rule::kUnidentifiedMotion:
     case Rule::kAvoid:
       if (decision.sensor < 0) return FreeOfPlaces({1, 0}, s);
       return FreeAhead(static_cast<std::size_t>(decision.sensor), s);

@@ -2,7 +2,7 @@
 
 namespace giveway {
 
-std::uint64_t HashOf(const VehicleState& state, const VehicleProfile& profile) {
+std::uint64_t HashOf(const VehicleState& state, const RobotModel& profile) {
   StateHash hash;
   hash.Add(VehicleState::kVersion);
   hash.Add(state.published.seq);
@@ -18,7 +18,7 @@ std::uint64_t HashOf(const VehicleState& state, const VehicleProfile& profile) {
   hash.Add(state.route.arrived);
   hash.Add(state.waiting.order.waited_ticks);
   hash.Add(state.waiting.waited_ticks);
-  hash.Add(state.movers.deaf);
+  hash.Add(state.movers.unidentified);
   hash.Add(state.last.decision.mode);
   hash.Add(state.last.decision.rule);
   hash.Add(state.last.decision.peer);

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "services/vehicle/estimation/beacon_check.h"
-#include "services/vehicle/estimation/planted.h"
+#include "services/vehicle/estimation/injected_mutants.h"
 #include "services/vehicle/situation/situation.h"
 #include "services/vehicle/waiting.h"
 
@@ -17,14 +17,14 @@ void EnterWorld(WorldEpoch epoch, const Pose& world_from_body, const VehicleOpti
   state.world.run_state = RunState::kWaiting;
   state.motion.odometry = Odometry(world_from_body);
   Begin(options.profile, &state.motion.pose);
-  state.motion.reckoned = kNoTick;
+  state.motion.pose_tick = kNoTick;
   state.motion.wheels = {};
   state.route.waypoint = 0;
   state.progress.nearest_m = kNoGoal_m;
-  state.progress.aimless_ticks = 0;
+  state.progress.no_progress_ticks = 0;
   state.progress.detour_tick = kNoTick;
   state.progress.away_tick = kNoTick;
-  state.progress.caught_ticks = 0;
+  state.progress.stuck_ticks = 0;
   state.last.blocked_tick = kNoTick;
   state.movers.turned_tick = kNoTick;
   state.last.decided_tick = kNoTick;
@@ -32,7 +32,7 @@ void EnterWorld(WorldEpoch epoch, const Pose& world_from_body, const VehicleOpti
   state.waiting.order.waited_ticks = 0;
   state.waiting.waited_ticks = 0;
   state.waiting.let_pass = false;
-  state.movers.deaf = false;
+  state.movers.unidentified = false;
   state.sensed.ranges = {};
   state.sensed.grid = {};
   state.heard.signals.LeaveWorld();
@@ -49,7 +49,7 @@ void GoOn(TaskProgress task, const VehicleOptions& options, VehicleState* going_
   VehicleState& state = *going_on;
   state.route.waypoint = OnRoute(options.route, task).waypoint;
   state.waiting.waited_ticks =
-      task.waited_ticks <= Number(state.motion.reckoned) ? task.waited_ticks : 0;
+      task.waited_ticks <= Number(state.motion.pose_tick) ? task.waited_ticks : 0;
   state.waiting.waited_world = state.motion.odometry.WorldFromBody().position_world;
   state.waiting.order.waited_ticks = AgedTicks(state.waiting, options);
 }
@@ -57,9 +57,9 @@ void GoOn(TaskProgress task, const VehicleOptions& options, VehicleState* going_
 }  // namespace
 
 std::optional<Handover> HandoverOf(const VehicleState& state) {
-  if (state.world.epoch == kNoEpoch || state.motion.reckoned == kNoTick) return std::nullopt;
+  if (state.world.epoch == kNoEpoch || state.motion.pose_tick == kNoTick) return std::nullopt;
   return Handover{.epoch = state.world.epoch,
-                  .tick = state.motion.reckoned,
+                  .tick = state.motion.pose_tick,
                   .counted = state.motion.counted,
                   .world_from_body = state.motion.odometry.WorldFromBody(),
                   .covariance = PromisedCovariance(state.motion.odometry, state.motion.pose),
@@ -72,7 +72,7 @@ bool TakeOver(const Handover& handover, const VehicleOptions& options, VehicleSt
   EnterWorld(handover.epoch, handover.world_from_body, options, &state);
   state.world.placed_in = handover.epoch;
   state.motion.odometry = Odometry(handover.world_from_body, handover.covariance);
-  state.motion.reckoned = handover.tick;
+  state.motion.pose_tick = handover.tick;
   state.motion.counted = handover.counted;
   GoOn(handover.task, options, &state);
   return true;
@@ -86,12 +86,12 @@ void TakeRoster(const RosterEntry& entry, const VehicleOptions& options, Vehicle
                      std::isfinite(entry.counted.right_rad);
   if (!entry.accepted || entry.epoch == kNoEpoch || entry.epoch == state.world.placed_in || !sound)
     return;
-  EnterWorld(entry.epoch, Has(Defect::kPlaceForgotten) ? options.start_world : pose, options,
-             &state);
+  EnterWorld(entry.epoch, MutantActive(Mutant::kPlaceForgotten) ? options.start_world : pose,
+             options, &state);
   state.world.placed_in = entry.epoch;
-  state.motion.reckoned = entry.tick;
+  state.motion.pose_tick = entry.tick;
   state.motion.counted = entry.counted;
-  GoOn(Has(Defect::kRouteForgotten) ? TaskProgress{} : entry.task, options, &state);
+  GoOn(MutantActive(Mutant::kRouteForgotten) ? TaskProgress{} : entry.task, options, &state);
 }
 
 }  // namespace giveway

@@ -15,7 +15,7 @@ const Peer* PeerOf(const PeerTable& peers, VehicleId id) {
   return found == all.end() || found->id != id ? nullptr : &*found;
 }
 
-void SayReplayed(const Beacon& beacon, const VehicleState& state, Refusal* refusal) {
+void DescribeReplayed(const Beacon& beacon, const VehicleState& state, Refusal* refusal) {
   const Peer* const peer = PeerOf(state.heard.peers, beacon.vehicle);
   refusal->counter = "rejected_replayed";
   refusal->passing = true;
@@ -54,7 +54,7 @@ Refusal Explain(const ReceivedBeacon& received, BeaconRefusal why, const Vehicle
       say("rejected_crc", "crc", "crc does not fit its fields");
       break;
     case BeaconRefusal::kReplayed:
-      SayReplayed(beacon, state, &refusal);
+      DescribeReplayed(beacon, state, &refusal);
       break;
     case BeaconRefusal::kOwn:
       say("rejected_own", "vehicle", "vehicle is this vehicle's own id");

@@ -8,11 +8,12 @@
 #include "services/types/math/math.h"
 #include "services/vehicle/decision/decide.h"
 #include "services/vehicle/estimation/beacon_check.h"
+#include "services/vehicle/estimation/injected_mutants.h"
 #include "services/vehicle/estimation/lost_ticks.h"
-#include "services/vehicle/estimation/planted.h"
 #include "services/vehicle/estimation/scan_check.h"
 #include "services/vehicle/evidence.h"
-#include "services/vehicle/listen.h"
+#include "services/vehicle/mover_watch.h"
+#include "services/vehicle/own_path.h"
 #include "services/vehicle/placing.h"
 #include "services/vehicle/situation/blocked.h"
 #include "services/vehicle/situation/box.h"
@@ -20,16 +21,15 @@
 #include "services/vehicle/situation/echoes.h"
 #include "services/vehicle/situation/encounter.h"
 #include "services/vehicle/situation/heard_places.h"
-#include "services/vehicle/situation/look.h"
+#include "services/vehicle/situation/peer_relation.h"
 #include "services/vehicle/waiting.h"
-#include "services/vehicle/way.h"
 
 namespace giveway {
 namespace {
 
 constexpr std::uint32_t kBlockedTicks = 20;  // how long a blocker counts after it was last seen
 // What the wheels do and what the encoders say of it are wrong independently of each other.
-double WheelError(const VehicleProfile& profile) {
+double WheelError(const RobotModel& profile) {
   return Sqrt(profile.wheel_slip * profile.wheel_slip +
               profile.encoder_noise * profile.encoder_noise);
 }
@@ -47,7 +47,7 @@ Vehicle::Vehicle(const VehicleOptions& options, std::uint32_t boot_epoch)
     : options_(options),
       cones_(ConesOf(options.profile)),
       state_(std::make_unique<VehicleState>()) {
-  GIVEWAY_CHECK(options.id != kNobody);
+  GIVEWAY_CHECK(options.id != kNoVehicle);
   GIVEWAY_CHECK(boot_epoch != 0);
   state_->published.boot_epoch = boot_epoch;
   state_->motion.odometry = Odometry(options.start_world);
@@ -84,18 +84,19 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
   if (scan.epoch != state.world.epoch)
     EnterWorld(scan.epoch, options_.start_world, options_, &state);
   // Out of order: older than known. The scan of the very tick it was placed at is still to be seen.
-  if (scan.tick < state.motion.reckoned ||
+  if (scan.tick < state.motion.pose_tick ||
       (state.world.tick != kNoTick && scan.tick == state.world.tick))
     return;
   const std::uint32_t ticks =
-      state.motion.reckoned == kNoTick ? 1 : TicksBetween(state.motion.reckoned, scan.tick);
+      state.motion.pose_tick == kNoTick ? 1 : TicksBetween(state.motion.pose_tick, scan.tick);
   const double dt_s = Seconds(ticks * options_.tick_period);
-  const VehicleProfile& profile = options_.profile;
+  const RobotModel& profile = options_.profile;
   const Vec2 from_world = state.motion.odometry.WorldFromBody().position_world;
   const Vec2 forward_world = state.motion.odometry.ForwardWorld();
   const double from_rad = state.motion.odometry.WorldFromBody().heading_rad;
-  const WayGone gone = ticks > 1 ? WayOfLostTicks(state.motion.counted, scan, options_, dt_s)
-                                 : WayGone{.wheels = scan.wheels};
+  const LostTicksMotion gone = ticks > 1
+                                   ? MotionOfLostTicks(state.motion.counted, scan, options_, dt_s)
+                                   : LostTicksMotion{.wheels = scan.wheels};
   const PoseCovariance added = Roll(profile,
                                     {.wheels = gone.wheels,
                                      .dt_s = dt_s,
@@ -105,19 +106,20 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
                                     &state.motion.odometry, &state.motion.pose);
   if (Remembers(options_)) {
     const Pose& after = state.motion.odometry.WorldFromBody();
-    const Vec2 way = after.position_world - from_world;
-    state.sensed.grid.Move({Dot(forward_world, way), Cross(forward_world, way)},
+    const Vec2 displacement = after.position_world - from_world;
+    state.sensed.grid.Move({Dot(forward_world, displacement), Cross(forward_world, displacement)},
                            after.heading_rad - from_rad, VarianceOfPlaces(added));
   }
   state.world.tick = scan.tick;
-  state.motion.reckoned = scan.tick;
+  state.motion.pose_tick = scan.tick;
   state.motion.counted = scan.counted;
   state.world.run_state = scan.run_state;
   state.motion.wheels = scan.wheels;
   if (HasImperfectSonar(options_)) {
     const Twist twist = TwistFromWheels(profile.drive, scan.wheels);
     const double turned_rad = twist.turn_rad_s * dt_s;
-    const OwnWay moved{twist.forward_m_s * dt_s, turned_rad < 0 ? -turned_rad : turned_rad};
+    const OwnDisplacement moved{twist.forward_m_s * dt_s,
+                                turned_rad < 0 ? -turned_rad : turned_rad};
     state.sensed.ranges.TakeImperfect(scan, now, options_.tick_period, moved);
   } else {
     state.sensed.ranges.Take(scan, now, options_.tick_period);
@@ -170,7 +172,7 @@ void Vehicle::TakeSignalsAndObjects(const Inputs& inputs) {
   state.counters.scans_refused += TakeObjects(inputs, observer, &state.sensed.objects);
 }
 
-OwnPose Vehicle::LookAtOwnPose() {
+OwnPose Vehicle::AssessOwnPose() {
   MeasuredMotion& motion = state_->motion;
   const PoseCovariance promised = PromisedCovariance(motion.odometry, motion.pose);
   const double known_share = JudgeCertainty(options_.profile, promised, &motion.pose);
@@ -181,14 +183,14 @@ OwnPose Vehicle::LookAtOwnPose() {
           .lost = motion.pose.lost};
 }
 
-OwnMotion Vehicle::LookAtOwnMotion() {
+OwnMotion Vehicle::AssessOwnMotion() {
   const WheelSpeeds wheels = state_->motion.wheels;
   const Twist twist = TwistFromWheels(options_.profile.drive, wheels);
   OwnMotion motion{.speed_m_s = twist.forward_m_s,
                    .turn_rad_s = twist.turn_rad_s,
                    .wheels = wheels,
                    .reaction_s = ReactionSeconds(options_),
-                   .looks_m = LooksAround(options_.profile)};
+                   .interest_radius_m = InterestRadius(options_.profile)};
   motion.slows_m =
       StoppingDistance(options_.cruise_m_s, motion.reaction_s, options_.profile.deceleration_m_s2);
   motion.sweeps_m = OwnSweep(motion, options_);
@@ -199,12 +201,12 @@ OwnMotion Vehicle::LookAtOwnMotion() {
 }
 
 // Lights are for cooperative vehicles; the lecture's behaviours know none.
-Lights Vehicle::LookAtSignals(const Moment& moment, const OwnMotion& motion,
+Lights Vehicle::AssessSignals(const Moment& moment, const OwnMotion& motion,
                               const OwnCourse& course) {
   if (options_.behaviour != Behaviour::kCooperative || moment.run_state != RunState::kRunning) {
     return {};
   }
-  const VehicleProfile& profile = options_.profile;
+  const RobotModel& profile = options_.profile;
   const double stopping_m = StoppingDistance(std::max(0.0, motion.speed_m_s), motion.reaction_s,
                                              profile.deceleration_m_s2);
   return {.stop_line =
@@ -216,7 +218,7 @@ Lights Vehicle::LookAtSignals(const Moment& moment, const OwnMotion& motion,
           .at_signal = state_->last.decision.rule == Rule::kSignal};
 }
 
-OwnView Vehicle::LookAtSelf(const Inputs& inputs) {
+OwnView Vehicle::AssessSelf(const Inputs& inputs) {
   VehicleState& state = *state_;
   HearEchoes(state.sensed.ranges, state.world.tick, options_, &echoes_);
   const Moment moment{.now = inputs.now,
@@ -225,16 +227,16 @@ OwnView Vehicle::LookAtSelf(const Inputs& inputs) {
                       .run_state = state.world.run_state,
                       .leaving = inputs.leaving,
                       .halting = inputs.halting};
-  const OwnPose pose = LookAtOwnPose();
-  const OwnMotion motion = LookAtOwnMotion();
-  const OwnCourse course = LookAhead(pose, options_, &state.route, &state.progress);
+  const OwnPose pose = AssessOwnPose();
+  const OwnMotion motion = AssessOwnMotion();
+  const OwnCourse course = UpdatePath(pose, options_, &state.route, &state.progress);
   const SensorsNow sensors{.ranges = state.sensed.ranges,
                            .echoes = echoes_,
                            .cones = cones_,
                            .objects = state.sensed.objects,
                            .blind_sensor = state.sensed.ranges.FirstBlind(
                                inputs.now, moment.tick, options_, cones_.enabled)};
-  const Lights lights = LookAtSignals(moment, motion, course);
+  const Lights lights = AssessSignals(moment, motion, course);
   return {moment,
           pose,
           motion,
@@ -246,7 +248,7 @@ OwnView Vehicle::LookAtSelf(const Inputs& inputs) {
           state.last.steer_side};
 }
 
-PeerViews<HeardPeer> Vehicle::ThoseThatMatter(const OwnView& s, bool* any_lost) {
+PeerViews<HeardPeer> Vehicle::SelectRelevantPeers(const OwnView& s, bool* any_lost) {
   views_.clear();
   std::uint32_t heard = 0;
   bool someone_lost = false;
@@ -255,7 +257,7 @@ PeerViews<HeardPeer> Vehicle::ThoseThatMatter(const OwnView& s, bool* any_lost) 
     const bool fresh = IsFresh(peer, s.now, s.tick, options_);
     heard += fresh ? 1 : 0;
     someone_lost = someone_lost || IsLost(peer, fresh);
-    if (!CanMatter(peer, fresh, s)) continue;
+    if (!IsRelevant(peer, fresh, s)) continue;
     PeerView& view = views_.emplace_back();
     view.peer = &peer;
     view.fresh = fresh;
@@ -265,10 +267,10 @@ PeerViews<HeardPeer> Vehicle::ThoseThatMatter(const OwnView& s, bool* any_lost) 
   return PeerViews<HeardPeer>(views_);
 }
 
-PeersNow Vehicle::LookAtPeers(const OwnView& s) {
+PeersNow Vehicle::AssessPeers(const OwnView& s) {
   bool someone_lost = false;
-  const PeerViews<HeardPeer> heard = ThoseThatMatter(s, &someone_lost);
-  const RelatedPeers related = LookAt(CarryForward(heard, s), s);
+  const PeerViews<HeardPeer> heard = SelectRelevantPeers(s, &someone_lost);
+  const RelatedPeers related = RelatePeers(CarryForward(heard, s), s);
   const Boxes boxes = FindBoxes(related.views, s);
   JudgeEchoes(boxes.views, someone_lost, s, &state_->counters.trust);
   return {.peers = boxes.views,
@@ -280,7 +282,7 @@ PeersNow Vehicle::LookAtPeers(const OwnView& s) {
 }
 
 // The printed scripts know neither places nor paths, only the one variable.
-PeersNow Vehicle::HearTheLastAlone(const OwnView& s) {
+PeersNow Vehicle::AssessLastHeard(const OwnView& s) {
   const std::span<const Peer> peers = state_->heard.peers.Peers();
   peers_heard_ =
       static_cast<std::uint32_t>(std::count_if(peers.begin(), peers.end(), [&](const Peer& peer) {
@@ -290,8 +292,8 @@ PeersNow Vehicle::HearTheLastAlone(const OwnView& s) {
   return {};
 }
 
-PeersNow Vehicle::LookAround(const OwnView& s) {
-  return options_.behaviour == Behaviour::kLecturePrinted ? HearTheLastAlone(s) : LookAtPeers(s);
+PeersNow Vehicle::AssessSurroundings(const OwnView& s) {
+  return options_.behaviour == Behaviour::kLecturePrinted ? AssessLastHeard(s) : AssessPeers(s);
 }
 
 // Where something was heard, this tick's firings among it.
@@ -309,7 +311,7 @@ Situation Vehicle::BuildSituation(const OwnView& own, const PeersNow& near) {
   }
   return {.own = own,
           .near = near,
-          .movers = ListenForMovers(own, near, &state.movers, &state.counters.trust),
+          .movers = DetectMovers(own, near, &state.movers, &state.counters.trust),
           .places = PlacesHeard(own, near),
           .escape = Detour(own, near, state.last, &state.progress)};
 }
@@ -320,7 +322,7 @@ void Vehicle::Remember(const Situation& s, const Action& action) {
   VehicleState& state = *state_;
   const bool waits = IsGiveWay(decision.rule) && s.own.speed_m_s < kStandingSpeed_m_s;
   KeepOrder(s.own, s.near.encounters, waits, &state.waiting);
-  if (Has(Defect::kMeasuredSpeedInOrder))
+  if (MutantActive(Mutant::kMeasuredSpeedInOrder))
     state.waiting.order.speed_bucket = SpeedBucket(s.own.speed_m_s);
   state.last.decision = decision;
   state.last.decided_tick = s.own.tick;
@@ -336,17 +338,17 @@ void Vehicle::Remember(const Situation& s, const Action& action) {
 // not flicker.
 void Vehicle::KeepBlocked(VehicleId blocked_by, const Situation& s) {
   VehicleState& state = *state_;
-  if (blocked_by != kNobody) {
+  if (blocked_by != kNoVehicle) {
     state.last.blocked_by = blocked_by;
     state.last.blocked_tick = s.own.tick;
     return;
   }
   const bool recent = state.last.blocked_tick != kNoTick && !s.own.arrived &&
                       TicksBetween(state.last.blocked_tick, s.own.tick) <= kBlockedTicks;
-  if (!recent || !IsStillNear(state.last.blocked_by, s)) state.last.blocked_by = kNobody;
+  if (!recent || !IsStillNear(state.last.blocked_by, s)) state.last.blocked_by = kNoVehicle;
 }
 
-Beacon Vehicle::Say(const Situation& s) {
+Beacon Vehicle::MakeBeacon(const Situation& s) {
   VehicleState& state = *state_;
   ++state.published.seq;
   state.published.gives_way_to = GivesWayTo(s);
@@ -379,8 +381,8 @@ Outputs Vehicle::Step(const Inputs& inputs) noexcept {
   TakeFix(inputs);
   TakePeers(inputs);
   TakeSignalsAndObjects(inputs);
-  const OwnView own = LookAtSelf(inputs);
-  const PeersNow near = LookAround(own);
+  const OwnView own = AssessSelf(inputs);
+  const PeersNow near = AssessSurroundings(own);
   const Situation s = BuildSituation(own, near);
   const Action action = Decide(s);
   const bool changed = !SameReason(action.decision, state.last.decision);
@@ -394,7 +396,7 @@ Outputs Vehicle::Step(const Inputs& inputs) noexcept {
                       .decision = action.decision,
                       .decision_changed = changed,
                       .task = {state.route.waypoint, state.waiting.waited_ticks}},
-          .beacon = Say(s),
+          .beacon = MakeBeacon(s),
           .decision_changed = changed};
 }
 

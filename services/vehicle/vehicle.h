@@ -69,20 +69,20 @@ class Vehicle {
   void TakePeers(const Inputs& inputs);
   void TakeSignalsAndObjects(const Inputs& inputs);
   // The stages of a situation: situation/situation.h.
-  OwnView LookAtSelf(const Inputs& inputs);
-  OwnPose LookAtOwnPose();
-  OwnMotion LookAtOwnMotion();
-  Lights LookAtSignals(const Moment& moment, const OwnMotion& motion, const OwnCourse& course);
-  PeersNow LookAround(const OwnView& own);
-  PeersNow LookAtPeers(const OwnView& own);
-  PeersNow HearTheLastAlone(const OwnView& own);
-  PeerViews<HeardPeer> ThoseThatMatter(const OwnView& own, bool* any_lost);
+  OwnView AssessSelf(const Inputs& inputs);
+  OwnPose AssessOwnPose();
+  OwnMotion AssessOwnMotion();
+  Lights AssessSignals(const Moment& moment, const OwnMotion& motion, const OwnCourse& course);
+  PeersNow AssessSurroundings(const OwnView& own);
+  PeersNow AssessPeers(const OwnView& own);
+  PeersNow AssessLastHeard(const OwnView& own);
+  PeerViews<HeardPeer> SelectRelevantPeers(const OwnView& own, bool* any_lost);
   std::span<const Vec2> PlacesHeard(const OwnView& own, const PeersNow& near);
   Situation BuildSituation(const OwnView& own, const PeersNow& near);
   // After the decision.
   void Remember(const Situation& situation, const Action& action);
   void KeepBlocked(VehicleId blocked_by, const Situation& situation);
-  Beacon Say(const Situation& situation);
+  Beacon MakeBeacon(const Situation& situation);
 
   VehicleOptions options_;
   Cones cones_;         // of options_.profile

@@ -3,7 +3,7 @@
 //
 //   world     EnterWorld, TakeScan: which it is in     progress   Detour: whether it gets nearer
 //   motion    TakeScan, TakeFix: its own pose          waiting    KeepOrder: its place in the order
-//   sensed    TakeScan: its own sensors                movers     ListenForMovers: unexplained ones
+//   sensed    TakeScan: its own sensors                movers     DetectMovers: unexplained ones
 //   heard     TakePeers: peers and lights              last       Remember: what it decided
 //   route     PassWaypoints: how far along it is       published  its last beacon
 #pragma once
@@ -21,7 +21,7 @@
 #include "services/vehicle/estimation/peer_table.h"
 #include "services/vehicle/estimation/pose_keeping.h"
 #include "services/vehicle/estimation/range_view.h"
-#include "services/vehicle/estimation/signals.h"
+#include "services/vehicle/estimation/signal_table.h"
 
 namespace giveway {
 
@@ -29,7 +29,7 @@ namespace giveway {
 struct Published {
   std::uint32_t boot_epoch = 0;
   std::uint32_t seq = 0;
-  VehicleId gives_way_to = kNobody;
+  VehicleId gives_way_to = kNoVehicle;
 };
 
 // The world it is in, and the tick of the scan last taken.
@@ -44,9 +44,9 @@ struct InWorld {
 struct MeasuredMotion {
   Odometry odometry;
   PoseKeeping pose;
-  Tick reckoned = kNoTick;  // the tick of odometry's pose; kNoTick: the one before the next scan
-  WheelSpeeds wheels;       // as last measured
-  WheelAngles counted;      // by the encoders, as last heard
+  Tick pose_tick = kNoTick;  // the tick of odometry's pose; kNoTick: the one before the next scan
+  WheelSpeeds wheels;        // as last measured
+  WheelAngles counted;       // by the encoders, as last heard
 };
 
 // By its own sensors.
@@ -67,24 +67,24 @@ struct Heard {
 struct RouteProgress {
   std::uint32_t waypoint = 0;  // the next one of the route; its count: on to the goal
   bool arrived = false;
-  KnownBearing way;  // to where it drives next
+  CachedBearing bearing;  // to where it drives next
 };
 
 // Whether it gets nearer to where it drives, and what it does where it does not.
 struct GoalProgress {
-  double nearest_m = 1e9;           // the least distance to the goal so far
-  std::uint32_t aimless_ticks = 0;  // driven since without coming nearer
-  Vec2 detour_world;                // where the detour leads first, if detour_tick is set
-  Tick detour_tick = kNoTick;       // when it was looked for
-  double away_rad = 0;              // the heading taken from what stopped it, if away_tick is set
-  Tick away_tick = kNoTick;         // when it was taken
-  Vec2 caught_world;                // where it has been stuck since
-  std::uint32_t caught_ticks = 0;   // for how long, not counting where it waits or queues
+  double nearest_m = 1e9;               // the least distance to the goal so far
+  std::uint32_t no_progress_ticks = 0;  // driven since without coming nearer
+  Vec2 detour_world;                    // where the detour leads first, if detour_tick is set
+  Tick detour_tick = kNoTick;           // when it was looked for
+  double away_rad = 0;            // the heading taken from what stopped it, if away_tick is set
+  Tick away_tick = kNoTick;       // when it was taken
+  Vec2 stuck_world;               // where it has been stuck since
+  std::uint32_t stuck_ticks = 0;  // for how long, not counting where it waits or queues
 };
 
 // Its place in the order, and the waiting that moves it up.
 struct Waiting {
-  OrderKey order;
+  PriorityKey order;
   std::uint32_t waited_ticks = 0;  // halted to give way, before the conflict it is not through yet
   Vec2 waited_world;               // where it halted last
   bool let_pass = false;           // a peer with priority has passed since it waits
@@ -92,19 +92,19 @@ struct Waiting {
 
 // Whether something near moves that no fresh beacon explains.
 struct MoverWatch {
-  bool deaf = false;
-  int deaf_sensor = -1;
-  SteadyTime deaf_since{0};    // last time something near moved unexplained
-  Tick turned_tick = kNoTick;  // when it last turned sharply
+  bool unidentified = false;
+  int unidentified_sensor = -1;
+  SteadyTime unidentified_since{0};  // last time something near moved unexplained
+  Tick turned_tick = kNoTick;        // when it last turned sharply
 };
 
 // What the last step decided.
 struct LastStep {
   Tick decided_tick = kNoTick;  // of that step
   Decision decision;
-  int steer_side = 0;              // 1 left, -1 right, 0 straight on
-  VehicleId blocked_by = kNobody;  // as last published
-  Tick blocked_tick = kNoTick;     // when that was last seen blocking
+  int steer_side = 0;                 // 1 left, -1 right, 0 straight on
+  VehicleId blocked_by = kNoVehicle;  // as last published
+  Tick blocked_tick = kNoTick;        // when that was last seen blocking
 };
 
 // Since the process started; a new world does not reset them.
@@ -134,6 +134,6 @@ struct VehicleState {
 
 // What a brain knows of its world and its peers, as one number. Its other memory, such as detours
 // or where it waited, shows here as soon as it drives by it.
-std::uint64_t HashOf(const VehicleState& state, const VehicleProfile& profile);
+std::uint64_t HashOf(const VehicleState& state, const RobotModel& profile);
 
 }  // namespace giveway

@@ -1,6 +1,6 @@
 #include "services/vehicle/waiting.h"
 
-#include "services/vehicle/estimation/planted.h"
+#include "services/vehicle/estimation/injected_mutants.h"
 
 namespace giveway {
 
@@ -25,7 +25,7 @@ void KeepOrder(const OwnView& own, const Encounters& s, bool waits, Waiting* wai
     state.waited_ticks = 0;
     state.let_pass = false;
   }
-  if (Has(Defect::kWaitingNeverCounts)) return;
+  if (MutantActive(Mutant::kWaitingNeverCounts)) return;
   if ((waits && state.let_pass) || !s.meets) {
     state.order.waited_ticks = AgedTicks(state, own.options);
   }

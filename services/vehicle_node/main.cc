@@ -21,16 +21,17 @@ namespace {
 // From joining to the end of the link.
 LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario, link::LinkOptions options,
              const StopSignal& stop, const std::function<void()>& settled) {
-  VehicleHealthTeller health(flags);
+  VehicleHealthReporter health(flags);
   std::optional<Recorder> recorder;
   if (!flags.record.empty()) {
     recorder.emplace(flags.record, RecorderOptions{flags.record_split, flags.record_ring});
   }
   options.impairment = ImpairmentOf(flags, scenario);
-  if (!AwaitServers(options, stop, [&](const std::string& why) { health.Joins(why); })) return {};
+  if (!AwaitServers(options, stop, [&](const std::string& why) { health.OnJoining(why); }))
+    return {};
   auth::AdminGate gate = AdminGateOf(flags);
   link::VehicleLink link(options, ServiceOptionsOf(gate, scenario));
-  PublishIdentity({kNobody, link.ParticipantText()});
+  PublishIdentity({kNoVehicle, link.ParticipantText()});
   SteadyClock clock;
   const Resumed resumed = flags.resume.value_or(Resumed{});
   const auto session = flags.resume ? std::optional(resumed.session) : std::nullopt;

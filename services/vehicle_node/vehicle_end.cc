@@ -20,7 +20,7 @@ LifeEnd EndOf(DriveEnd end, const VehicleLoop& loop, const ServiceAdmin& admin) 
       return {};
     case DriveEnd::kRefused:
       return {2, {}};
-    case DriveEnd::kDeaf:
+    case DriveEnd::kScansLost:
       return {1, {}};
     case DriveEnd::kRestarts:
       return {0, ToComeBack(loop, admin)};

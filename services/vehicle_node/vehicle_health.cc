@@ -5,25 +5,25 @@
 
 namespace giveway {
 
-void VehicleHealthTeller::Joins(const std::string& waits_for) {
+void VehicleHealthReporter::OnJoining(const std::string& waits_for) {
   VehicleHealth& now = service_.Now();
   now.loop.stage = HealthStage::kJoining;
   now.waits_for = ShortText(waits_for);
-  service_.Tell();
+  service_.Publish();
 }
 
-void VehicleHealthTeller::Placed(VehicleId id, Nanoseconds ranges_age_limit) {
+void VehicleHealthReporter::OnPlaced(VehicleId id, Nanoseconds ranges_age_limit) {
   VehicleHealth& now = service_.Now();
   now.loop.stage = HealthStage::kUnderWay;
   now.status.vehicle = id;
   now.ranges_age_limit = ranges_age_limit;
   ++now.placements;
-  service_.Tell();
+  service_.Publish();
 }
 
-void VehicleHealthTeller::Turned(const link::Taken& taken,
-                                 const link::VehicleLinkCounters& counters,
-                                 const RosterEntry& place, SteadyTime woke) {
+void VehicleHealthReporter::OnTick(const link::Taken& taken,
+                                   const link::VehicleLinkCounters& counters,
+                                   const RosterEntry& place, SteadyTime woke) {
   VehicleHealth& now = service_.Now();
   if (taken.inputs.scan) now.scanned = woke;
   now.late_scans = counters.ranges_skipped;
@@ -33,10 +33,10 @@ void VehicleHealthTeller::Turned(const link::Taken& taken,
   now.write_failures = counters.write_failures;
   now.ranges_deadline_missed = counters.ranges_deadline_missed;
   now.packets = link::PacketsOfProcess();
-  service_.Tell();
+  service_.Publish();
 }
 
-void VehicleHealthTeller::Reported(const VehicleStatus& status, const VehicleState& brain) {
+void VehicleHealthReporter::OnStatus(const VehicleStatus& status, const VehicleState& brain) {
   VehicleHealth& now = service_.Now();
   now.status = status;
   now.pose_sigma_m = SigmaPosition(PromisedCovariance(brain.motion.odometry, brain.motion.pose));
@@ -44,9 +44,9 @@ void VehicleHealthTeller::Reported(const VehicleStatus& status, const VehicleSta
   now.fixes_refused = brain.motion.pose.fixes_refused;
 }
 
-void VehicleHealthTeller::Leaves() {
+void VehicleHealthReporter::OnLeaving() {
   service_.Now().loop.stage = HealthStage::kLeaving;
-  service_.Tell();
+  service_.Publish();
 }
 
 }  // namespace giveway

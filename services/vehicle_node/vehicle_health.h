@@ -9,20 +9,20 @@
 
 namespace giveway {
 
-class VehicleHealthTeller {
+class VehicleHealthReporter {
  public:
-  explicit VehicleHealthTeller(const ServiceFlags& flags) : service_(flags) {}
+  explicit VehicleHealthReporter(const ServiceFlags& flags) : service_(flags) {}
 
   // It asks for a place; `waits_for` is what the world said last, empty if nothing.
-  void Joins(const std::string& waits_for);
+  void OnJoining(const std::string& waits_for);
   // It was given a place as vehicle `id`, and will drive with ranges no older than that.
-  void Placed(VehicleId id, Nanoseconds ranges_age_limit);
+  void OnPlaced(VehicleId id, Nanoseconds ranges_age_limit);
   // The loop has taken what came, at `woke`.
-  void Turned(const link::Taken& taken, const link::VehicleLinkCounters& counters,
+  void OnTick(const link::Taken& taken, const link::VehicleLinkCounters& counters,
               const RosterEntry& place, SteadyTime woke);
   // The same status went to the fleet, of a brain that has come to this.
-  void Reported(const VehicleStatus& status, const VehicleState& brain);
-  void Leaves();
+  void OnStatus(const VehicleStatus& status, const VehicleState& brain);
+  void OnLeaving();
 
  private:
   HealthService<VehicleHealth> service_;

@@ -75,7 +75,7 @@ VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry) {
 
 std::string WhyNoPlace(const Scenario& scenario, const RosterEntry& entry, VehicleId own) {
   if (!entry.accepted) return {};
-  if (own != kNobody && entry.vehicle != own) {
+  if (own != kNoVehicle && entry.vehicle != own) {
     return "vehicle is " + std::to_string(Number(entry.vehicle)) + ", must be " +
            std::to_string(Number(own));
   }
@@ -109,14 +109,14 @@ std::optional<RosterEntry> Join(const JoinParts& parts, const std::function<bool
     }
     asking.AskAgainIfDue();
     const std::string& answer = asking.WaitsFor();
-    parts.health->Joins(answer.empty() ? link.WhyNobodyIsFound() : answer);
+    parts.health->OnJoining(answer.empty() ? link.WhyNoPeerIsFound() : answer);
     clock.SleepUntil(clock.Now() + kPoll);
     if (clock.Now() < remind) continue;
     remind += kReminder;
     const std::string change = link.InterfaceChange();
     if (!change.empty()) throw link::LinkError(change + "; ends, to be started again");
     if (asking.Answered()) continue;
-    const std::string no_servers = link.WhyNobodyIsFound();
+    const std::string no_servers = link.WhyNoPeerIsFound();
     LogWarning(!no_servers.empty()
                    ? no_servers
                    : "no answer from a world yet: is giveway-world running in this domain?");

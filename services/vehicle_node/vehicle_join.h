@@ -17,7 +17,7 @@ namespace giveway {
 // has another scenario.
 VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry);
 
-// Why the vehicle `own` (kNobody: any) cannot be where the entry says: the scenario has no such
+// Why the vehicle `own` (kNoVehicle: any) cannot be where the entry says: the scenario has no such
 // place, or it is far from all the scenario has; empty if it can, or where the entry gives none.
 std::string WhyNoPlace(const Scenario& scenario, const RosterEntry& entry, VehicleId own);
 // Of an entry that is not followed for that.
@@ -26,7 +26,7 @@ Refusal RefusalOf(const RosterEntry& entry, const std::string& why);
 struct JoinParts {
   link::DriveLink* link = nullptr;
   Clock* clock = nullptr;
-  VehicleHealthTeller* health = nullptr;
+  VehicleHealthReporter* health = nullptr;
   const Scenario* scenario = nullptr;
 };
 

@@ -17,16 +17,16 @@ bool HasLeft(VehicleId peer, const Vehicle& vehicle) {
 
 }  // namespace
 
-void VehicleLog::TellOfLink(std::span<const Refusal> refusals,
-                            const std::vector<std::string>& unfit, SteadyTime now) {
+void VehicleLog::LogLink(std::span<const Refusal> refusals, const std::vector<std::string>& unfit,
+                         SteadyTime now) {
   LogNews(refusals, unfit, now, &refusal_log_);
 }
 
-void VehicleLog::TellOfPackets(const PacketCounters& packets, SteadyTime now) {
+void VehicleLog::LogPackets(const PacketCounters& packets, SteadyTime now) {
   LogDrops(packets, now, &packet_log_);
 }
 
-void VehicleLog::TellOfEvents(std::span<const QosEvent> events, const Vehicle& vehicle) {
+void VehicleLog::LogEvents(std::span<const QosEvent> events, const Vehicle& vehicle) {
   for (const QosEvent& event : events) {
     switch (event.kind) {
       case QosEventKind::kDeadlineMissed:
@@ -46,8 +46,8 @@ void VehicleLog::TellOfEvents(std::span<const QosEvent> events, const Vehicle& v
   }
 }
 
-void VehicleLog::TellOfRefusals(std::span<const ReceivedBeacon> beacons, const Vehicle& vehicle,
-                                SteadyTime now) {
+void VehicleLog::LogRefusals(std::span<const ReceivedBeacon> beacons, const Vehicle& vehicle,
+                             SteadyTime now) {
   std::vector<Refusal> refusals;
   for (const RefusedBeacon& refused : vehicle.Refused()) {
     if (refused.why == BeaconRefusal::kCrc || refused.why == BeaconRefusal::kWrongName) continue;
@@ -56,18 +56,19 @@ void VehicleLog::TellOfRefusals(std::span<const ReceivedBeacon> beacons, const V
   LogNews(refusals, {}, now, &refusal_log_);
 }
 
-void VehicleLog::TellOfBeacons(const Vehicle& vehicle, const VehicleOptions& options,
-                               SteadyTime now, SteadyTime woke) {
-  beacon_news_.Look(vehicle.State().heard.peers.Peers(), now, vehicle.State().world.tick, options);
-  for (const BeaconNewsItem& item : beacon_news_.Items()) {
-    const bool is_trouble = item.kind == BeaconNewsKind::kStale;
+void VehicleLog::LogFreshness(const Vehicle& vehicle, const VehicleOptions& options, SteadyTime now,
+                              SteadyTime woke) {
+  beacon_freshness_.Update(vehicle.State().heard.peers.Peers(), now, vehicle.State().world.tick,
+                           options);
+  for (const FreshnessChange& item : beacon_freshness_.Items()) {
+    const bool is_trouble = item.kind == FreshnessKind::kStale;
     is_trouble ? LogWarning(Describe(item), woke) : LogInfo(Describe(item), woke);
   }
 }
 
-void VehicleLog::TellOfBlackouts(const std::optional<SteadyTime>& since) {
-  if (told_blackouts_ || !since) return;
-  told_blackouts_ = true;
+void VehicleLog::LogBlackouts(const std::optional<SteadyTime>& since) {
+  if (logged_blackouts_ || !since) return;
+  logged_blackouts_ = true;
   LogInfo("impairment: blackouts are counted from here", *since);
 }
 

@@ -39,12 +39,12 @@ VehicleLoop::VehicleLoop(const VehicleLoopParts& parts, const Scenario& scenario
       boot_epoch_(RandomNonZero()),
       vehicle_(options_, boot_epoch_),
       news_(entry),
-      hearing_(&link_, clock_.Now()),
+      reception_(&link_, clock_.Now()),
       report_(options_) {
   std::optional<Handover> handover = options.handover;
   if (handover && !TakeOver(*handover)) handover.reset();
   if (recorder_ != nullptr) recorder_->Begin(options_, boot_epoch_, handover);
-  health_.Placed(options_.id, options_.ranges_age_limit);
+  health_.OnPlaced(options_.id, options_.ranges_age_limit);
 }
 
 // False where it is not to be gone by: then the world's word is.
@@ -58,11 +58,11 @@ bool VehicleLoop::TakeOver(const Handover& handover) {
 
 DriveEnd VehicleLoop::Drive(const std::function<bool()>& is_stopped) {
   while (!is_stopped() && !place_.IsOver() && !restarts_ && remedy_ == Remedy::kNone) Turn(false);
-  if (remedy_ == Remedy::kNewProcess) return DriveEnd::kDeaf;
+  if (remedy_ == Remedy::kNewProcess) return DriveEnd::kScansLost;
   restarts_ = restarts_ || remedy_ == Remedy::kNewParticipant;
   if (restarts_) Halt(is_stopped);
   const bool restarts = restarts_ && !place_.IsOver();
-  health_.Leaves();
+  health_.OnLeaving();
   const bool goes = is_stopped() || restarts;
   for (int i = 0; goes && i < kGoodByes; ++i) Turn(true);
   if (restarts && !is_stopped()) AskForTime();
@@ -110,31 +110,31 @@ void VehicleLoop::Turn(bool leaving) {
   inputs.halting = restarts_;
   if (inputs.scan) last_scan_ = woke;
   const std::span<const QosEvent> events = inputs.events;
-  log_.TellOfLink(taken.refusals, link_.TakeUnfit(woke), woke);
-  log_.TellOfPackets(link::PacketsOfProcess(), woke);
+  log_.LogLink(taken.refusals, link_.TakeUnfit(woke), woke);
+  log_.LogPackets(link::PacketsOfProcess(), woke);
   report_.NoteLeft(taken.left);
   if (lockstep_ && !leaving && !world_time_.Keep(&inputs, options_.tick_period)) {
-    return TellOfEvents(events);
+    return LogEvents(events);
   }
   const bool decision_changed = Step(&taken, woke, by_scan);
-  TellOfEvents(events);
-  log_.TellOfRefusals(inputs.beacons, vehicle_, woke);
+  LogEvents(events);
+  log_.LogRefusals(inputs.beacons, vehicle_, woke);
   if (!leaving && !restarts_ && serve_orders_()) restarts_ = true;
   const bool looks = !leaving && !restarts_ && !lockstep_;
-  if (looks) remedy_ = hearing_.Look(woke, inputs.scan.has_value());
-  log_.TellOfBeacons(vehicle_, options_, inputs.now, woke);
-  log_.TellOfBlackouts(link_.BlackoutsSince());
+  if (looks) remedy_ = reception_.Update(woke, inputs.scan.has_value());
+  log_.LogFreshness(vehicle_, options_, inputs.now, woke);
+  log_.LogBlackouts(link_.BlackoutsSince());
   if (inputs.scan && on_first_scan_) std::exchange(on_first_scan_, nullptr)();
   if (!decision_changed && woke < next_status_) return;
-  health_.Reported(report_.Send(vehicle_, link_), vehicle_.State());
+  health_.OnStatus(report_.Send(vehicle_, link_), vehicle_.State());
   next_status_ = woke + kStatusPeriod;
 }
 
 void VehicleLoop::KeepPlace(const link::Taken& taken, SteadyTime woke) {
   if (taken.inputs.roster) Follow(*taken.inputs.roster);
   place_.KeepAsking(!lockstep_ && link_.LacksBody());
-  health_.Turned(taken, link_.Counters(), place_.Entry(), woke);
-  if (const std::string* reason = place_.WaitsFor()) health_.Joins(*reason);
+  health_.OnTick(taken, link_.Counters(), place_.Entry(), woke);
+  if (const std::string* reason = place_.WaitsFor()) health_.OnJoining(*reason);
 }
 
 // A world that was restarted, or that gives the vehicle another place, says where it stands now.
@@ -142,7 +142,7 @@ void VehicleLoop::Follow(const RosterEntry& entry) {
   const std::string why = WhyNoPlace(scenario_, entry, Id());
   if (!why.empty()) {
     const Refusal refusal = RefusalOf(entry, why);
-    log_.TellOfLink({&refusal, 1}, {}, clock_.Now());
+    log_.LogLink({&refusal, 1}, {}, clock_.Now());
     return;
   }
   const PlaceNews news = place_.Follow(entry);
@@ -153,7 +153,7 @@ void VehicleLoop::Follow(const RosterEntry& entry) {
   vehicle_.Reseat(options_);
   report_.Reseat(options_);
   if (recorder_ != nullptr) recorder_->Reseat(options_);
-  health_.Placed(options_.id, options_.ranges_age_limit);
+  health_.OnPlaced(options_.id, options_.ranges_age_limit);
   LogInfo("drives on in world " + std::to_string(Number(entry.epoch)));
 }
 
@@ -189,9 +189,9 @@ bool VehicleLoop::Step(link::Taken* taken, SteadyTime woke, bool by_scan) {
   return outputs.decision_changed;
 }
 
-void VehicleLoop::TellOfEvents(std::span<const QosEvent> events) {
+void VehicleLoop::LogEvents(std::span<const QosEvent> events) {
   report_.NoteEvents(events);
-  log_.TellOfEvents(events, vehicle_);
+  log_.LogEvents(events, vehicle_);
 }
 
 }  // namespace giveway

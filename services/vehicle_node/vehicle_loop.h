@@ -17,8 +17,8 @@
 #include "services/types/handover.h"
 #include "services/types/scenario.h"
 #include "services/vehicle/vehicle.h"
+#include "services/vehicle_node/reception_monitor.h"
 #include "services/vehicle_node/vehicle_health.h"
-#include "services/vehicle_node/vehicle_hearing.h"
 #include "services/vehicle_node/vehicle_log.h"
 #include "services/vehicle_node/vehicle_place.h"
 #include "services/vehicle_node/vehicle_report.h"
@@ -36,13 +36,13 @@ struct VehicleLoopOptions {
 struct VehicleLoopParts {
   link::DriveLink* link = nullptr;
   Clock* clock = nullptr;
-  VehicleHealthTeller* health = nullptr;
+  VehicleHealthReporter* health = nullptr;
   Recorder* recorder = nullptr;              // null: nothing is recorded
   std::function<bool()> serve_orders;        // what an operator ordered; true if it takes a restart
   std::function<void()> on_first_scan = {};  // called once, after its answer is out; may be empty
 };
 
-enum class DriveEnd : std::uint8_t { kOver, kRefused, kRestarts, kDeaf };
+enum class DriveEnd : std::uint8_t { kOver, kRefused, kRestarts, kScansLost };
 
 class VehicleLoop {
  public:
@@ -66,11 +66,11 @@ class VehicleLoop {
   void KeepPlace(const link::Taken& taken, SteadyTime woke);
   void Follow(const RosterEntry& entry);
   bool Step(link::Taken* taken, SteadyTime woke, bool by_scan);
-  void TellOfEvents(std::span<const QosEvent> events);
+  void LogEvents(std::span<const QosEvent> events);
 
   link::DriveLink& link_;
   Clock& clock_;
-  VehicleHealthTeller& health_;
+  VehicleHealthReporter& health_;
   Recorder* const recorder_;
   const std::function<bool()> serve_orders_;
   std::function<void()> on_first_scan_;
@@ -82,7 +82,7 @@ class VehicleLoop {
   Vehicle vehicle_;
   std::optional<RosterEntry> news_;  // that the brain has yet to hear
   bool restarts_ = false;
-  Hearing hearing_;
+  ReceptionMonitor reception_;
   Remedy remedy_ = Remedy::kNone;
   VehicleReport report_;
   VehicleLog log_;

@@ -27,15 +27,15 @@ std::string Listed(std::string text, std::initializer_list<Counted> all) {
 
 std::string Describe(const Decision& decision) {
   std::string text(Name(decision.rule));
-  if (decision.peer != kNobody) text += " for " + std::to_string(Number(decision.peer));
+  if (decision.peer != kNoVehicle) text += " for " + std::to_string(Number(decision.peer));
   if (decision.sensor >= 0) text += ", sensor " + std::to_string(decision.sensor + 1);
   return text + " (" + std::string(Name(decision.mode)) + ")";
 }
 
 std::string Describe(const QosEvent& event) {
   return std::string(Name(event.kind)) + ": " +
-         (event.vehicle == kNobody ? "a vehicle the library does not name"
-                                   : "vehicle " + std::to_string(Number(event.vehicle)));
+         (event.vehicle == kNoVehicle ? "a vehicle the library does not name"
+                                      : "vehicle " + std::to_string(Number(event.vehicle)));
 }
 
 std::string Describe(const ReactionMargin& margin) {

@@ -11,7 +11,7 @@ std::string LogLine(const WorldEvent& event) {
   switch (event.kind) {
     case EventKind::kContact:
       return "contact: vehicle " + IdText(event.vehicle) + " touched " +
-             (event.other == kNobody ? "something" : "vehicle " + IdText(event.other));
+             (event.other == kNoVehicle ? "something" : "vehicle " + IdText(event.other));
     case EventKind::kFaultDue:
       return "fault due: " + event.text;
     case EventKind::kFaultBegan:

@@ -32,13 +32,13 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario,
   options.schedule = schedule;
   const auto tell = [&](const std::string& why) {
     health.Now().waits_for = ShortText(why);
-    health.Tell();
+    health.Publish();
   };
   if (!AwaitServers(link_options, stop, tell)) return {};
   auth::AdminGate gate = AdminGateOf(flags);
   link::WorldLink link(link_options, ServiceOptionsOf(gate, scenario));
-  PublishIdentity({kNobody, link.ParticipantText()});
-  ServiceAdmin admin(&link, link_options, kNobody, flags.lockstep, std::move(gate));
+  PublishIdentity({kNoVehicle, link.ParticipantText()});
+  ServiceAdmin admin(&link, link_options, kNoVehicle, flags.lockstep, std::move(gate));
   options.on_back = [&] {
     settled();
     if (flags.resume) admin.AnswerResumed(flags.resume->order, flags.rolled_back);

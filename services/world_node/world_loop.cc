@@ -23,7 +23,7 @@ constexpr Nanoseconds kReminder = seconds(5);
 // For the vehicles of a world that was restarted to find it: those that do not are silent then.
 constexpr Nanoseconds kResumePatience = seconds(10);
 // A vehicle that joins a running fleet stands until it hears all peers, but not for ever.
-constexpr Nanoseconds kDeafStand = seconds(3);
+constexpr Nanoseconds kUnheardStand = seconds(3);
 
 std::string Text(VehicleId vehicle) { return std::to_string(Number(vehicle)); }
 
@@ -47,7 +47,7 @@ WorldLoop::WorldLoop(const Scenario& scenario, link::WorldLink* link, ServiceAdm
       epoch_(EpochOf(options)),
       fleet_(std::make_unique<Fleet>(scenario, epoch_, options)),
       start_by_(SteadyNow() + FromSeconds(scenario.start_timeout_s)),
-      say_alone_(SteadyNow() + kReminder) {
+      report_alone_(SteadyNow() + kReminder) {
   if (options_.checkpoint) Resume(*options_.checkpoint);
   if (options_.checkpoint_file.empty()) return;
   const std::string complaint = WriteStateFile(options_.checkpoint_file, State());
@@ -83,8 +83,8 @@ WorldEnd WorldLoop::Drive(const StopSignal& stop) {
     if (stop.IsSet()) fleet_->run.End("interrupted");
     RunTick();
     KeepCheckpoint();
-    TellHealth(HealthStage::kUnderWay);
-    SayIfAlone();
+    ReportHealth(HealthStage::kUnderWay);
+    ReportIfAlone();
     LogNews(link_.TakeRefusals(), link_.TakeUnfit(SteadyNow()), SteadyNow(), &refusal_log_);
     LogDrops(link::PacketsOfProcess(), SteadyNow(), &packet_log_);
     const bool goes = !resumed_with_ || fleet_->run.State() == RunState::kRunning;
@@ -94,8 +94,8 @@ WorldEnd WorldLoop::Drive(const StopSignal& stop) {
       return WorldEnd::kRestarts;
     }
   }
-  TellHealth(HealthStage::kLeaving);
-  const bool passed = TellTheEnd(stop.IsSet() ? kFlushWhenStopped : kFlushTimeout);
+  ReportHealth(HealthStage::kLeaving);
+  const bool passed = AnnounceEnd(stop.IsSet() ? kFlushWhenStopped : kFlushTimeout);
   return passed ? WorldEnd::kPassed : WorldEnd::kFailed;
 }
 
@@ -111,7 +111,7 @@ void WorldLoop::RunTick() {
   fleet_->admission.FollowRun();
   Close();
   Publish();
-  SayLeftOut();
+  ReportLeftOut();
 }
 
 void WorldLoop::Admit() {
@@ -130,7 +130,7 @@ void WorldLoop::Admit() {
   }
 }
 
-void WorldLoop::SayLeftOut() {
+void WorldLoop::ReportLeftOut() {
   const SteadyTime now = SteadyNow();
   const auto answers = answer_lines_.TakeLeftOut(now);
   const auto events = event_lines_.TakeLeftOut(now);
@@ -142,7 +142,7 @@ void WorldLoop::SayLeftOut() {
 void WorldLoop::Welcome(const RosterEntry& entry) {
   Newcomer& newcomer = newcomers_[entry.vehicle];
   if (newcomer.session == entry.session) return;
-  const auto stand = sim::TicksCovering(kDeafStand, scenario_.tick_period);
+  const auto stand = sim::TicksCovering(kUnheardStand, scenario_.tick_period);
   newcomer = {entry.session, After(fleet_->run.Now(), stand)};
   heard_.erase(entry.vehicle);
 }
@@ -175,20 +175,20 @@ void WorldLoop::Heed(const MotorCommand& command) {
     return;
   }
   const double epoch = Number(epoch_);
-  TellOfRefused(command, {"world_epoch", double(Number(command.epoch)), epoch, epoch}, true);
+  LogRefused(command, {"world_epoch", double(Number(command.epoch)), epoch, epoch}, true);
 }
 
 // A vehicle without a place has no wheels here, and a command cannot answer a scan that is to come.
 bool WorldLoop::MayCommand(const MotorCommand& command) {
-  if (!fleet_->admission.Told().contains(command.vehicle)) return command.epoch != epoch_;
+  if (!fleet_->admission.Informed().contains(command.vehicle)) return command.epoch != epoch_;
   const Tick now = fleet_->run.Now();
   if (command.epoch != epoch_ || command.tick <= now) return true;
-  TellOfRefused(command, {"tick", double(Number(command.tick)), 0, double(Number(now))}, false);
+  LogRefused(command, {"tick", double(Number(command.tick)), 0, double(Number(now))}, false);
   return false;
 }
 
 // The log says why, if it continues.
-void WorldLoop::TellOfRefused(const MotorCommand& command, const FieldFault& fault, bool passing) {
+void WorldLoop::LogRefused(const MotorCommand& command, const FieldFault& fault, bool passing) {
   const Refusal refusal{.sample = "motor command",
                         .vehicle = command.vehicle,
                         .writer = Number(command.vehicle),
@@ -201,24 +201,24 @@ void WorldLoop::TellOfRefused(const MotorCommand& command, const FieldFault& fau
 
 // It is matched with the world, and with the beacons of every other vehicle that lives.
 bool WorldLoop::IsReady(VehicleId vehicle) const {
-  const auto hearing = heard_.find(vehicle);
-  const auto& told = fleet_->admission.Told();
-  return hearing != heard_.end() && told.contains(vehicle) && link_.IsMatched(vehicle) &&
-         hearing->second.matched_peers + 1 >= speaking_;
+  const auto reception = heard_.find(vehicle);
+  const auto& informed = fleet_->admission.Informed();
+  return reception != heard_.end() && informed.contains(vehicle) && link_.IsMatched(vehicle) &&
+         reception->second.matched_peers + 1 >= speaking_;
 }
 
 void WorldLoop::CountSpeaking() {
   speaking_ = static_cast<std::size_t>(std::ranges::count_if(
-      fleet_->admission.Told(),
-      [this](const auto& told) { return !fleet_->run.IsAbandoned(told.first); }));
+      fleet_->admission.Informed(),
+      [this](const auto& informed) { return !fleet_->run.IsAbandoned(informed.first); }));
 }
 
 // Which vehicles are still waited for; empty if none.
 std::string WorldLoop::Missing() const {
-  const auto& told = fleet_->admission.Told();
+  const auto& informed = fleet_->admission.Informed();
   if (sim::IsOpen(scenario_) && !resumed_with_) {
     const auto ready =
-        std::ranges::count_if(told, [this](const auto& entry) { return IsReady(entry.first); });
+        std::ranges::count_if(informed, [this](const auto& entry) { return IsReady(entry.first); });
     const auto needed = std::max(1U, scenario_.start_with);
     if (ready >= static_cast<std::ptrdiff_t>(needed)) return {};
     return std::to_string(needed - static_cast<std::uint32_t>(ready)) + " of " +
@@ -247,31 +247,31 @@ void WorldLoop::StartIfReady() {
   if (!missing.empty()) LogWarning("starts without: " + missing);
   fleet_->run.Start();
   next_checkpoint_ = {};
-  for (const RosterEntry& entry : fleet_->admission.TellAll("")) link_.SendRoster(entry);
-  LogInfo("started with " + std::to_string(fleet_->admission.Told().size()) + " vehicles");
+  for (const RosterEntry& entry : fleet_->admission.InformAll("")) link_.SendRoster(entry);
+  LogInfo("started with " + std::to_string(fleet_->admission.Informed().size()) + " vehicles");
 }
 
 // A vehicle wakes on its ranges, so they go last of what it senses.
 void WorldLoop::Publish() {
   const sim::Run& run = fleet_->run;
   if (run.State() == RunState::kRunning) reactions_.Published(run.Now(), SteadyNow());
-  const auto& told = fleet_->admission.Told();
-  const auto is_told = [&](const auto& scan) { return told.contains(scan.vehicle); };
+  const auto& informed = fleet_->admission.Informed();
+  const auto is_informed = [&](const auto& scan) { return informed.contains(scan.vehicle); };
   for (const SignalState& signal : run.Signals()) link_.SendSignal(signal);
   for (const RadarScan& scan : run.Radars()) {
-    if (is_told(scan)) link_.SendRadar(scan);
+    if (is_informed(scan)) link_.SendRadar(scan);
   }
   for (const LidarScan& scan : run.Lidars()) {
-    if (is_told(scan)) link_.SendLidar(scan);
+    if (is_informed(scan)) link_.SendLidar(scan);
   }
   for (const CameraScan& scan : run.Cameras()) {
-    if (is_told(scan)) link_.SendCamera(scan);
+    if (is_informed(scan)) link_.SendCamera(scan);
   }
   for (const PoseFix& fix : run.PoseFixes()) {
-    if (is_told(fix)) link_.SendPoseFix(fix);
+    if (is_informed(fix)) link_.SendPoseFix(fix);
   }
   for (RangeScan scan : run.Scans()) {
-    if (!is_told(scan)) continue;
+    if (!is_informed(scan)) continue;
     if (MustStand(scan.vehicle)) scan.run_state = RunState::kWaiting;
     link_.SendScan(scan);
   }
@@ -298,14 +298,14 @@ void WorldLoop::AwaitAnswers() {
     if (!link_.WaitForCommands(give_up - SteadyNow())) break;
     for (const MotorCommand& command : link_.TakeCommands()) Heed(command);
   }
-  for (auto& [vehicle, hearing] : heard_) {
-    hearing.waited_for = hearing.answered == fleet_->run.Now();
+  for (auto& [vehicle, reception] : heard_) {
+    reception.waited_for = reception.answered == fleet_->run.Now();
   }
 }
 
 bool WorldLoop::Unanswered() const {
-  for (const auto& [vehicle, hearing] : heard_) {
-    if (hearing.waited_for && hearing.answered != fleet_->run.Now()) return true;
+  for (const auto& [vehicle, reception] : heard_) {
+    if (reception.waited_for && reception.answered != fleet_->run.Now()) return true;
   }
   return false;
 }
@@ -322,7 +322,7 @@ void WorldLoop::KeepCheckpoint() {
   longest_checkpoint_ = std::max(longest_checkpoint_, SteadyNow() - begun);
 }
 
-bool WorldLoop::TellTheEnd(Nanoseconds patience) {
+bool WorldLoop::AnnounceEnd(Nanoseconds patience) {
   RunFigures figures = fleet_->run.Figures();
   figures.tick_overruns = overruns_;
   const sim::ReactionFigures reactions = reactions_.Figures();
@@ -332,7 +332,7 @@ bool WorldLoop::TellTheEnd(Nanoseconds patience) {
   figures.reaction_max_ms = reactions.max_ms;
   link_.SendFigures(figures);
   const std::string& reason = fleet_->run.EndReason();
-  for (const RosterEntry& entry : fleet_->admission.TellAll(reason)) link_.SendRoster(entry);
+  for (const RosterEntry& entry : fleet_->admission.InformAll(reason)) link_.SendRoster(entry);
   link_.Flush(patience);
   if (!options_.checkpoint_file.empty()) {
     RemoveStateFile(options_.checkpoint_file);  // what has ended does not resume
@@ -345,22 +345,22 @@ bool WorldLoop::TellTheEnd(Nanoseconds patience) {
 }
 
 // Where discovery servers are to be used, and none answers.
-void WorldLoop::SayIfAlone() {
-  if (SteadyNow() < say_alone_) return;
-  say_alone_ = SteadyNow() + kReminder;
-  const std::string why = link_.WhyNobodyIsFound();
+void WorldLoop::ReportIfAlone() {
+  if (SteadyNow() < report_alone_) return;
+  report_alone_ = SteadyNow() + kReminder;
+  const std::string why = link_.WhyNoPeerIsFound();
   if (!why.empty()) LogWarning(why);
 }
 
-void WorldLoop::TellHealth(HealthStage stage) {
+void WorldLoop::ReportHealth(HealthStage stage) {
   const link::WorldLinkCounters link = link_.Counters();
   WorldHealth& now = health_.Now();
   now.loop.stage = stage;
-  now.waits_for = ShortText(link_.WhyNobodyIsFound());
+  now.waits_for = ShortText(link_.WhyNoPeerIsFound());
   now.run_state = fleet_->run.State();
   now.time_s = fleet_->run.TimeSeconds();
   now.late_ticks = overruns_;
-  now.vehicles_joined = static_cast<std::uint32_t>(fleet_->admission.Told().size());
+  now.vehicles_joined = static_cast<std::uint32_t>(fleet_->admission.Informed().size());
   now.contacts = fleet_->run.Contacts();
   now.reactions = reactions_.Count();
   now.commands_taken = link.commands_taken;
@@ -373,7 +373,7 @@ void WorldLoop::TellHealth(HealthStage stage) {
   now.write_failures = link.write_failures;
   now.command_latency = link.command_latency;
   now.packets = link::PacketsOfProcess();
-  health_.Tell();
+  health_.Publish();
 }
 
 }  // namespace giveway

@@ -57,7 +57,7 @@ class WorldLoop {
     sim::Admission admission;
   };
   // What the world last heard of one vehicle.
-  struct Hearing {
+  struct Reception {
     Tick answered = kNoTick;
     std::uint32_t matched_peers = 0;
     bool waited_for = true;  // in lockstep: until it lets a tick go by unanswered
@@ -71,7 +71,7 @@ class WorldLoop {
   void Resume(const sim::FleetCheckpoint& checkpoint);
   void RunTick();
   void Admit();
-  void SayLeftOut();
+  void ReportLeftOut();
   void Welcome(const RosterEntry& entry);
   void Close();
   void TakeCommands();
@@ -85,12 +85,12 @@ class WorldLoop {
   void AwaitAnswers();
   bool Unanswered() const;
   void KeepCheckpoint();
-  bool TellTheEnd(Nanoseconds patience);
-  void TellHealth(HealthStage stage);
-  void SayIfAlone();
+  bool AnnounceEnd(Nanoseconds patience);
+  void ReportHealth(HealthStage stage);
+  void ReportIfAlone();
   bool MayCommand(const MotorCommand& command);
   void Heed(const MotorCommand& command);
-  void TellOfRefused(const MotorCommand& command, const FieldFault& fault, bool passing);
+  void LogRefused(const MotorCommand& command, const FieldFault& fault, bool passing);
 
   const Scenario& scenario_;
   link::WorldLink& link_;
@@ -102,8 +102,8 @@ class WorldLoop {
   std::optional<std::vector<VehicleId>> resumed_with_;  // must be back before it resumes
   sim::ReactionMeter reactions_;
   SteadyTime start_by_;
-  SteadyTime say_alone_;  // when it is next said that no discovery server answers
-  std::map<VehicleId, Hearing> heard_;
+  SteadyTime report_alone_;  // when it is next said that no discovery server answers
+  std::map<VehicleId, Reception> heard_;
   std::map<VehicleId, Newcomer> newcomers_;  // that joined during the run
   RefusalLog refusal_log_;
   PacketLog packet_log_;

@@ -80,9 +80,9 @@ sim::FaultSchedule LoadSchedule(const ServiceFlags& flags, const Scenario& scena
     course.duration_s = std::max(course.duration_s, rule.time_s + rule.for_s);
     // Any id may join an open fleet.
     if (sim::IsOpen(scenario)) vehicles.insert(rule.target.vehicle);
-    if (sim::IsOpen(scenario)) vehicles.insert(rule.parameters.from.value_or(kNobody));
+    if (sim::IsOpen(scenario)) vehicles.insert(rule.parameters.from.value_or(kNoVehicle));
   }
-  vehicles.erase(kNobody);
+  vehicles.erase(kNoVehicle);
   const std::vector<VehicleId> ids(vehicles.begin(), vehicles.end());
   faults::Expansion expansion = faults::Expand(file, course, ids);
   problems = ProblemsOf(file, expansion);

@@ -20,29 +20,29 @@ bool IsMovingAfter(const Motion& motion, double t_s) {
 }
 bool IsMovingAfter(const Leaf& leaf, double t_s) { return Moves(leaf) && leaf.stop_s > t_s; }
 
-bool IsMovingAfter(const Things& things, std::size_t thing, double t_s) {
-  return things.IsLeaf(thing) ? IsMovingAfter(things.LeafOf(thing), t_s)
-                              : IsMovingAfter(things.motions[thing], t_s);
+bool IsMovingAfter(const Collidables& collidables, std::size_t thing, double t_s) {
+  return collidables.IsLeaf(thing) ? IsMovingAfter(collidables.LeafOf(thing), t_s)
+                                   : IsMovingAfter(collidables.motions[thing], t_s);
 }
 
-Outline OutlineOf(const Things& things, std::size_t thing, double t_s) {
-  Outline outline = things.IsLeaf(thing) ? OutlineAt(things.LeafOf(thing), t_s)
-                                         : OutlineAt(things.motions[thing], t_s);
-  if (!IsMovingAfter(things, thing, t_s)) outline.velocity_world = {};
+Outline OutlineOf(const Collidables& collidables, std::size_t thing, double t_s) {
+  Outline outline = collidables.IsLeaf(thing) ? OutlineAt(collidables.LeafOf(thing), t_s)
+                                              : OutlineAt(collidables.motions[thing], t_s);
+  if (!IsMovingAfter(collidables, thing, t_s)) outline.velocity_world = {};
   return outline;
 }
 
 // Whether a, at its hit with b, would close in on b if b stood still.
-bool ClosesIn(const Things& things, std::size_t a, std::size_t b, double t_s) {
-  const Outline of_a = OutlineOf(things, a, t_s);
-  Outline of_b = OutlineOf(things, b, t_s);
+bool ClosesIn(const Collidables& collidables, std::size_t a, std::size_t b, double t_s) {
+  const Outline of_a = OutlineOf(collidables, a, t_s);
+  Outline of_b = OutlineOf(collidables, b, t_s);
   of_b.velocity_world = {};
   return GapRate(of_a, of_b, NearestBetween(of_a, of_b)) < 0;
 }
 
-void StopThing(Things* things, std::size_t thing, double t_s) {
-  double& stop_s =
-      things->IsLeaf(thing) ? things->LeafOf(thing).stop_s : things->motions[thing].stop_s;
+void StopThing(Collidables* collidables, std::size_t thing, double t_s) {
+  double& stop_s = collidables->IsLeaf(thing) ? collidables->LeafOf(thing).stop_s
+                                              : collidables->motions[thing].stop_s;
   stop_s = std::min(stop_s, t_s);
 }
 
@@ -70,31 +70,32 @@ bool Contacts::TouchesWall(const Motion& motion) const {
   return touches;
 }
 
-void Contacts::Gather(std::span<const NearPair> pairs, const Things& things, double dt_s,
+void Contacts::Gather(std::span<const NearPair> pairs, const Collidables& collidables, double dt_s,
                       const ParallelFor& parallel) {
-  by_walls_.Make(things.motions.size(), parallel, [&](std::size_t i, std::vector<Candidate>* near) {
-    const Motion& motion = things.motions[i];
-    if (things.present[i] == 0 || !Moves(motion)) return;
-    const std::size_t begin = near->size();
-    WallsNear(motion, TravelBound(motion, dt_s), [&](std::uint32_t wall) {
-      const auto known = [&](const Candidate& other) { return other.hit.b == wall; };
-      if (std::any_of(near->begin() + static_cast<std::ptrdiff_t>(begin), near->end(), known)) {
-        return;
-      }
-      near->push_back({{kNever, static_cast<std::uint32_t>(i), true, wall}, kNone, kNone});
-    });
-  });
+  by_walls_.Make(
+      collidables.motions.size(), parallel, [&](std::size_t i, std::vector<Candidate>* near) {
+        const Motion& motion = collidables.motions[i];
+        if (collidables.present[i] == 0 || !Moves(motion)) return;
+        const std::size_t begin = near->size();
+        WallsNear(motion, TravelBound(motion, dt_s), [&](std::uint32_t wall) {
+          const auto known = [&](const Candidate& other) { return other.hit.b == wall; };
+          if (std::any_of(near->begin() + static_cast<std::ptrdiff_t>(begin), near->end(), known)) {
+            return;
+          }
+          near->push_back({{kNever, static_cast<std::uint32_t>(i), true, wall}, kNone, kNone});
+        });
+      });
   candidates_.assign(by_walls_.All().begin(), by_walls_.All().end());
   for (const NearPair& pair : pairs) {
-    if (pair.apart_m > kTouch_m || things.IsLeaf(pair.b))
+    if (pair.apart_m > kTouch_m || collidables.IsLeaf(pair.b))
       continue;  // leaves do not stop each other
     candidates_.push_back({{kNever, pair.a, false, pair.b}, kNone, kNone});
   }
 }
 
 // Links the candidates of each thing into a chain.
-void Contacts::Chain(std::size_t things) {
-  first_of_.assign(things, kNone);
+void Contacts::Chain(std::size_t collidables) {
+  first_of_.assign(collidables, kNone);
   for (std::uint32_t i = 0; i < candidates_.size(); ++i) {
     Candidate& candidate = candidates_[i];
     candidate.next_of_a = std::exchange(first_of_[candidate.hit.a], i);
@@ -102,18 +103,19 @@ void Contacts::Chain(std::size_t things) {
   }
 }
 
-double Contacts::NextHit(const Hit& candidate, const Things& things, double from_s) const {
+double Contacts::NextHit(const Hit& candidate, const Collidables& collidables,
+                         double from_s) const {
   const auto [t_s, a, wall, b] = candidate;
   const bool moving =
-      IsMovingAfter(things, a, from_s) || (!wall && IsMovingAfter(things, b, from_s));
+      IsMovingAfter(collidables, a, from_s) || (!wall && IsMovingAfter(collidables, b, from_s));
   if (!moving) return kNever;
   std::optional<double> hit_s;
   if (wall) {
-    hit_s = FirstContact(things.motions[a], walls_[b], from_s, dt_s_);
-  } else if (things.IsLeaf(a)) {
-    hit_s = FirstContact(things.motions[b], things.LeafOf(a), from_s, dt_s_);
+    hit_s = FirstContact(collidables.motions[a], walls_[b], from_s, dt_s_);
+  } else if (collidables.IsLeaf(a)) {
+    hit_s = FirstContact(collidables.motions[b], collidables.LeafOf(a), from_s, dt_s_);
   } else {
-    hit_s = FirstContact(things.motions[a], things.motions[b], from_s, dt_s_);
+    hit_s = FirstContact(collidables.motions[a], collidables.motions[b], from_s, dt_s_);
   }
   return hit_s.value_or(kNever);
 }
@@ -130,43 +132,43 @@ void Contacts::Enqueue(std::uint32_t candidate) {
   std::push_heap(queue_.begin(), queue_.end(), Later);
 }
 
-void Contacts::Stop(const Hit& hit, Things* things) {
+void Contacts::Stop(const Hit& hit, Collidables* collidables) {
   if (hit.wall) {
-    StopThing(things, hit.a, hit.t_s);
+    StopThing(collidables, hit.a, hit.t_s);
     return;
   }
-  const bool vehicles = things->IsBody(hit.a) && things->IsBody(hit.b);
-  const bool stop_a = vehicles || ClosesIn(*things, hit.a, hit.b, hit.t_s);
-  const bool stop_b = vehicles || ClosesIn(*things, hit.b, hit.a, hit.t_s);
+  const bool vehicles = collidables->IsBody(hit.a) && collidables->IsBody(hit.b);
+  const bool stop_a = vehicles || ClosesIn(*collidables, hit.a, hit.b, hit.t_s);
+  const bool stop_b = vehicles || ClosesIn(*collidables, hit.b, hit.a, hit.t_s);
   // Rounding may deny both: then both stop, or the hit would repeat forever.
-  if (stop_a || !stop_b) StopThing(things, hit.a, hit.t_s);
-  if (stop_b || !stop_a) StopThing(things, hit.b, hit.t_s);
+  if (stop_a || !stop_b) StopThing(collidables, hit.a, hit.t_s);
+  if (stop_b || !stop_a) StopThing(collidables, hit.b, hit.t_s);
 }
 
-void Contacts::LookAgain(std::uint32_t thing, double from_s, const Things& things) {
+void Contacts::FindHitsAgain(std::uint32_t thing, double from_s, const Collidables& collidables) {
   for (std::uint32_t i = first_of_[thing]; i != kNone;) {
     Candidate& candidate = candidates_[i];
     const double before_s =
-        std::exchange(candidate.hit.t_s, NextHit(candidate.hit, things, from_s));
+        std::exchange(candidate.hit.t_s, NextHit(candidate.hit, collidables, from_s));
     if (candidate.hit.t_s != before_s) Enqueue(i);
     i = !candidate.hit.wall && candidate.hit.b == thing ? candidate.next_of_b : candidate.next_of_a;
   }
 }
 
 std::span<const Hit> Contacts::StopAll(std::span<const NearPair> pairs, double dt_s,
-                                       const ParallelFor& parallel, Things* things) {
+                                       const ParallelFor& parallel, Collidables* collidables) {
   dt_s_ = dt_s;
   hits_.clear();
   queue_.clear();
-  Gather(pairs, *things, dt_s, parallel);
+  Gather(pairs, *collidables, dt_s, parallel);
   const auto find = [&](std::size_t begin, std::size_t end) {
     for (; begin != end; ++begin) {
       Hit& hit = candidates_[begin].hit;
-      hit.t_s = NextHit(hit, *things, 0);
+      hit.t_s = NextHit(hit, *collidables, 0);
     }
   };
   parallel(candidates_.size(), std::ref(find));
-  Chain(things->Count());
+  Chain(collidables->Count());
   for (std::uint32_t i = 0; i < candidates_.size(); ++i) Enqueue(i);
   while (!queue_.empty()) {
     std::pop_heap(queue_.begin(), queue_.end(), Later);
@@ -175,10 +177,10 @@ std::span<const Hit> Contacts::StopAll(std::span<const NearPair> pairs, double d
     if (candidates_[earliest.candidate].hit.t_s != earliest.hit.t_s) continue;
     // Every hit stops something that moved, so this terminates.
     candidates_[earliest.candidate].hit.t_s = kNever;
-    Stop(earliest.hit, things);
+    Stop(earliest.hit, collidables);
     hits_.push_back(earliest.hit);
-    LookAgain(earliest.hit.a, earliest.hit.t_s, *things);
-    if (!earliest.hit.wall) LookAgain(earliest.hit.b, earliest.hit.t_s, *things);
+    FindHitsAgain(earliest.hit.a, earliest.hit.t_s, *collidables);
+    if (!earliest.hit.wall) FindHitsAgain(earliest.hit.b, earliest.hit.t_s, *collidables);
   }
   return hits_;
 }

@@ -9,9 +9,9 @@
 
 #include "services/types/parallel.h"
 #include "services/types/scenario.h"
-#include "sim_world/dynamics/things.h"
-#include "sim_world/geometry/gathered.h"
+#include "sim_world/dynamics/collidables.h"
 #include "sim_world/geometry/neighbours.h"
+#include "sim_world/geometry/parallel_collector.h"
 #include "sim_world/geometry/wall_grid.h"
 
 namespace giveway::sim {
@@ -27,14 +27,14 @@ class Contacts {
  public:
   explicit Contacts(std::span<const Wall> walls);
 
-  // Sets the stops of `things` for a tick of dt_s. `pairs` names all that may touch in it. Returns
-  // the hits in order of time, and at one time the lowest number first, so that the order of search
-  // has no effect.
+  // Sets the stops of `collidables` for a tick of dt_s. `pairs` names all that may touch in it.
+  // Returns the hits in order of time, and at one time the lowest number first, so that the order
+  // of search has no effect.
   //
   // Two vehicles that meet both stop. Against anything else only what closes in stops: a vehicle
   // may leave a cart that pushes it, and a vehicle next to a door does not hold it.
   std::span<const Hit> StopAll(std::span<const NearPair> pairs, double dt_s,
-                               const ParallelFor& parallel, Things* things);
+                               const ParallelFor& parallel, Collidables* collidables);
 
   std::span<const Wall> Walls() const { return walls_; }
   // Whether the motion, at its start, touches a wall.
@@ -57,20 +57,20 @@ class Contacts {
 
   template <typename Visit>
   void WallsNear(const Motion& motion, double travel_m, const Visit& visit) const;
-  void Gather(std::span<const NearPair> pairs, const Things& things, double dt_s,
+  void Gather(std::span<const NearPair> pairs, const Collidables& collidables, double dt_s,
               const ParallelFor& parallel);
-  void Chain(std::size_t things);
-  double NextHit(const Hit& candidate, const Things& things, double from_s) const;
+  void Chain(std::size_t collidables);
+  double NextHit(const Hit& candidate, const Collidables& collidables, double from_s) const;
   void Enqueue(std::uint32_t candidate);
-  void Stop(const Hit& hit, Things* things);
-  void LookAgain(std::uint32_t thing, double from_s, const Things& things);
+  void Stop(const Hit& hit, Collidables* collidables);
+  void FindHitsAgain(std::uint32_t thing, double from_s, const Collidables& collidables);
 
   static bool Later(const Entry& x, const Entry& y);
 
   std::vector<Wall> walls_;
   WallGrid wall_grid_;
   double dt_s_ = 0;
-  Gathered<Candidate> by_walls_;
+  ParallelCollector<Candidate> by_walls_;
   std::vector<Candidate> candidates_;
   std::vector<std::uint32_t> first_of_;  // candidate of each thing
   std::vector<Entry> queue_;             // a heap, earliest on top

@@ -12,8 +12,8 @@ struct WheelRates {
 };
 
 double Approach(double from, double to, double most) {
-  const double way = to - from;
-  return std::abs(way) <= most ? to : from + std::copysign(most, way);
+  const double difference = to - from;
+  return std::abs(difference) <= most ? to : from + std::copysign(most, difference);
 }
 
 double MoveWheel(double current, double target, const WheelRates& rates, double dt_s) {
@@ -29,7 +29,7 @@ double MoveWheel(double current, double target, const WheelRates& rates, double 
 
 }  // namespace
 
-WheelSpeeds WithinCaps(const VehicleProfile& profile, WheelSpeeds wheels) {
+WheelSpeeds WithinCaps(const RobotModel& profile, WheelSpeeds wheels) {
   const Twist asked = TwistFromWheels(profile.drive, wheels);
   const Twist capped = {
       std::clamp(asked.forward_m_s, -profile.max_speed_m_s, profile.max_speed_m_s),
@@ -41,7 +41,7 @@ WheelSpeeds WithinCaps(const VehicleProfile& profile, WheelSpeeds wheels) {
   return WheelsFromTwist(profile.drive, capped);
 }
 
-WheelSpeeds MoveWheels(const VehicleProfile& profile, WheelSpeeds current, WheelSpeeds target,
+WheelSpeeds MoveWheels(const RobotModel& profile, WheelSpeeds current, WheelSpeeds target,
                        double dt_s) {
   const WheelRates rates = {profile.acceleration_m_s2 / profile.drive.wheel_radius_m,
                             profile.deceleration_m_s2 / profile.drive.wheel_radius_m};
@@ -51,7 +51,7 @@ WheelSpeeds MoveWheels(const VehicleProfile& profile, WheelSpeeds current, Wheel
   return WithinCaps(profile, moved);
 }
 
-Rolled Roll(const VehicleProfile& profile, WheelSpeeds wheels, Random random) {
+Rolled Roll(const RobotModel& profile, WheelSpeeds wheels, Random random) {
   const WheelSpeeds rolls =
       profile.wheel_error.Any() ? AsNominal(profile.drive, profile.wheel_error, wheels) : wheels;
   if (profile.wheel_slip == 0 && profile.encoder_noise == 0) {

@@ -12,7 +12,7 @@ PlannedSilence::PlannedSilence(const faults::Schedule& schedule) {
     if (!of_vehicles) continue;
     if (fault.kind == faults::Kind::kKill) {
       kills_.push_back(
-          {fault.target.what == What::kAll ? kNobody : fault.target.vehicle, fault.at_s});
+          {fault.target.what == What::kAll ? kNoVehicle : fault.target.vehicle, fault.at_s});
     } else {
       vehicles_return_ = true;
     }
@@ -21,7 +21,7 @@ PlannedSilence::PlannedSilence(const faults::Schedule& schedule) {
 
 bool PlannedSilence::IsKilled(VehicleId vehicle, double time_s) const {
   return std::ranges::any_of(kills_, [&](const Kill& kill) {
-    return (kill.vehicle == kNobody || kill.vehicle == vehicle) && kill.at_s <= time_s;
+    return (kill.vehicle == kNoVehicle || kill.vehicle == vehicle) && kill.at_s <= time_s;
   });
 }
 

@@ -24,7 +24,7 @@ class PlannedSilence {
 
  private:
   struct Kill {
-    VehicleId vehicle = kNobody;  // kNobody: every vehicle
+    VehicleId vehicle = kNoVehicle;  // kNoVehicle: every vehicle
     double at_s = 0;
   };
 

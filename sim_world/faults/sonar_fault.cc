@@ -33,7 +33,7 @@ SonarFault::SonarFault(const faults::Fault& fault, std::uint64_t draws, Nanoseco
           FromSeconds(std::min(kMostDelay_s, fault.parameters.delay_s.value_or(0))), tick_period)),
       draws_(draws) {}
 
-void SonarFault::Alter(const VehicleProfile& profile, std::uint32_t driven_tick, RangeScan* scan) {
+void SonarFault::Alter(const RobotModel& profile, std::uint32_t driven_tick, RangeScan* scan) {
   switch (kind_) {
     case faults::Kind::kSonarOff:
       Silence(scan);
@@ -86,7 +86,7 @@ void SonarFault::Freeze(RangeScan* scan) {
 }
 
 // Drawn per firing: a reading stays the same until its transducer fires again.
-void SonarFault::Scramble(const VehicleProfile& profile, std::uint32_t driven_tick,
+void SonarFault::Scramble(const RobotModel& profile, std::uint32_t driven_tick,
                           RangeScan* scan) const {
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     RangeReading& reading = scan->readings[i];
@@ -99,7 +99,7 @@ void SonarFault::Scramble(const VehicleProfile& profile, std::uint32_t driven_ti
   }
 }
 
-void SonarFault::Scale(const VehicleProfile& profile, RangeScan* scan) const {
+void SonarFault::Scale(const RobotModel& profile, RangeScan* scan) const {
   for (RangeReading& reading : scan->readings) {
     if (reading.kind != Echo::kEcho) continue;
     reading.range_m *= factor_;

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "services/faults/fault.h"
-#include "services/types/profile.h"
 #include "services/types/range_scan.h"
+#include "services/types/robot_model.h"
 #include "services/types/time.h"
 
 namespace giveway::sim {
@@ -30,7 +30,7 @@ class SonarFault {
 
   // Takes in the scan of that driving tick, from 1, as the ultrasonics made it. Once a tick. Draws
   // count from the start signal, however long the world waited for it.
-  void Alter(const VehicleProfile& profile, std::uint32_t driven_tick, RangeScan* scan);
+  void Alter(const RobotModel& profile, std::uint32_t driven_tick, RangeScan* scan);
 
  private:
   using Readings = decltype(RangeScan::readings);
@@ -38,8 +38,8 @@ class SonarFault {
   void Hold(RangeScan* scan);
   void Delay(RangeScan* scan);
   void Freeze(RangeScan* scan);
-  void Scramble(const VehicleProfile& profile, std::uint32_t driven_tick, RangeScan* scan) const;
-  void Scale(const VehicleProfile& profile, RangeScan* scan) const;
+  void Scramble(const RobotModel& profile, std::uint32_t driven_tick, RangeScan* scan) const;
+  void Scale(const RobotModel& profile, RangeScan* scan) const;
 
   faults::Kind kind_;
   double factor_;

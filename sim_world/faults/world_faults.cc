@@ -208,7 +208,7 @@ WorldFaults::Memory* WorldFaults::Remember(Active* active, const Body& body) {
   return &*active->memories.insert(at, std::move(memory));
 }
 
-void WorldFaults::Alter(const VehicleProfile& profile, RangeScan* scan) {
+void WorldFaults::Alter(const RobotModel& profile, RangeScan* scan) {
   for (Active& active : active_) {
     const auto memory =
         std::ranges::lower_bound(active.memories, scan->vehicle, {}, &Memory::vehicle);

@@ -44,7 +44,7 @@ class WorldFaults {
   std::span<const DriveFault> OfDrives() const { return drives_; }
   bool AlterScans() const { return !resting_ && sonars_ > 0; }
   // Applies this tick's faults to the scan of a body that is present.
-  void Alter(const VehicleProfile& profile, RangeScan* scan);
+  void Alter(const RobotModel& profile, RangeScan* scan);
   bool AlterFixes() const { return !resting_ && fixes_ > 0; }
   // Applies them to a fix. False: the fix is lost.
   bool Alter(PoseFix* fix) const;
@@ -58,7 +58,7 @@ class WorldFaults {
   // a restarted world stuck sensors stick to their first reading, and delayed ones start their
   // delay again.
   struct HeldWheels {
-    VehicleId vehicle = kNobody;
+    VehicleId vehicle = kNoVehicle;
     WheelSpeeds wheels;
   };
   struct State {
@@ -74,7 +74,7 @@ class WorldFaults {
  private:
   // The state of a fault for one body.
   struct Memory {
-    VehicleId vehicle = kNobody;
+    VehicleId vehicle = kNoVehicle;
     WheelSpeeds wheels;               // of kMotorStuck, as it started
     std::optional<SonarFault> sonar;  // of kinds of ultrasonics
   };

@@ -9,7 +9,7 @@
 
 namespace giveway::sim {
 
-Motion StandingAt(const VehicleProfile& profile, const Pose& world_from_body) {
+Motion StandingAt(const RobotModel& profile, const Pose& world_from_body) {
   const bool box = profile.shape == BodyShape::kBox;
   return {.start_world = world_from_body,
           .radius_m = box ? Norm(profile.box_half_m) : profile.body_radius_m,

@@ -35,7 +35,7 @@ struct Leaf {
 };
 
 // A vehicle's body that stands.
-Motion StandingAt(const VehicleProfile& profile, const Pose& world_from_body);
+Motion StandingAt(const RobotModel& profile, const Pose& world_from_body);
 
 Pose PoseAt(const Motion& motion, double t_s);
 Vec2 PositionAt(const Motion& motion, double t_s);

@@ -9,8 +9,8 @@
 
 #include "services/types/math/vec2.h"
 #include "services/types/parallel.h"
-#include "sim_world/geometry/gathered.h"
 #include "sim_world/geometry/grid.h"
+#include "sim_world/geometry/parallel_collector.h"
 
 namespace giveway::sim {
 
@@ -46,7 +46,7 @@ class Neighbours {
   std::vector<Ball> unsorted_;
   std::vector<Vec2> centres_;
   double widest_m_ = 0;  // of small_
-  Gathered<NearPair> pairs_;
+  ParallelCollector<NearPair> pairs_;
 };
 
 }  // namespace giveway::sim

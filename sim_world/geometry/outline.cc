@@ -60,7 +60,7 @@ Separating OnSidesOf(const Outline& a, const Outline& b) {
 }
 
 // The shortest connection between two cores that do not overlap.
-struct Way {
+struct Shortest {
   double squared_m2 = kInfinity;
   Vec2 from_a_world;
   Vec2 to_b_world;
@@ -72,8 +72,8 @@ struct Way {
 };
 
 // One of the nearest points is a corner.
-Way ShortestWay(const Outline& a, const Outline& b) {
-  Way shortest;
+Shortest ShortestBetween(const Outline& a, const Outline& b) {
+  Shortest shortest;
   const auto keep_sides = [](const Outline& sides, const Outline& corners, const auto& keep) {
     for (std::size_t i = 0; i < sides.count; ++i) {
       const Vec2 from = sides.corner_world[i];
@@ -126,20 +126,20 @@ Nearest NearestBetween(const Outline& a, const Outline& b) {
   Separating best = OnSidesOf(a, b);
   const Separating of_b = OnSidesOf(b, a);
   best.Keep(of_b.apart_m, -1 * of_b.axis_world);
-  const Way way = ShortestWay(a, b);
-  const double distance = Sqrt(way.squared_m2);
+  const Shortest shortest = ShortestBetween(a, b);
+  const double distance = Sqrt(shortest.squared_m2);
   // If a side is nearest, its own direction is exact; that of the connection is only as accurate as
   // it is long. Two corners are nearest if their distance is greater than any side shows.
   const bool corners = best.apart_m > 0 && distance > best.apart_m + kNoDirection_m;
   const bool discs = best.apart_m == -kInfinity;
   Nearest nearest = {best.apart_m, best.axis_world, {}};
   if (corners || (discs && distance > kNoDirection_m)) {
-    nearest = {distance, (1 / distance) * (way.to_b_world - way.from_a_world), {}};
+    nearest = {distance, (1 / distance) * (shortest.to_b_world - shortest.from_a_world), {}};
   } else if (discs) {
     nearest = {distance, {1, 0}, {}};  // one place: any direction is as good
   }
   nearest.gap_m -= a.radius_m + b.radius_m;
-  nearest.on_b_world = way.to_b_world - b.radius_m * nearest.axis_world;
+  nearest.on_b_world = shortest.to_b_world - b.radius_m * nearest.axis_world;
   return nearest;
 }
 

@@ -50,7 +50,7 @@ class Stretch {
         a_stands_(a.stop_s <= from_s),
         b_stands_(b.stop_s <= from_s) {}
 
-  void LookAt(double t_s) {
+  void EvaluateAt(double t_s) {
     t_s_ = t_s;
     at_a_ = OutlineAt(a_, t_s);
     at_b_ = OutlineAt(b_, t_s);
@@ -82,10 +82,11 @@ class Stretch {
     double safe_s = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < at_a_.count; ++i) {
       for (std::size_t j = 0; j < at_b_.count; ++j) {
-        const Vec2 way = at_b_.corner_world[j] - at_a_.corner_world[i];
-        const double rate =
-            Dot(axis, at_b_.velocity_world[j] - at_a_.velocity_world[i]) + Dot(axis_rate, way);
-        safe_s = std::min(safe_s, SafeStep(rate, bend, Dot(axis, way) - radii_m - floor_m));
+        const Vec2 displacement = at_b_.corner_world[j] - at_a_.corner_world[i];
+        const double rate = Dot(axis, at_b_.velocity_world[j] - at_a_.velocity_world[i]) +
+                            Dot(axis_rate, displacement);
+        safe_s =
+            std::min(safe_s, SafeStep(rate, bend, Dot(axis, displacement) - radii_m - floor_m));
       }
     }
     return safe_s;
@@ -123,7 +124,7 @@ std::optional<double> AdvanceToContact(const A& a, const B& b, double from_s, do
   Stretch<A, B> stretch(a, b, from_s, to_s);
   double t_s = from_s;
   while (t_s <= to_s) {
-    stretch.LookAt(t_s);
+    stretch.EvaluateAt(t_s);
     const double gap_m = stretch.Gap();
     if (gap_m > kTouch_m) {
       t_s += stretch.SafeUntil(kTouch_m / 2);
@@ -153,23 +154,23 @@ ClosestMoment SmallerGap(const Motion& a, const Motion& b, double from_s, double
                          const ClosestMoment& smallest) {
   Stretch<Motion, Motion> stretch(a, b, from_s, to_s);
   ClosestMoment best = smallest;
-  const auto look_at = [&](double t_s) {
-    stretch.LookAt(t_s);
+  const auto evaluate_at = [&](double t_s) {
+    stretch.EvaluateAt(t_s);
     if (stretch.Gap() < best.gap_m) best = {stretch.Gap(), t_s};
   };
-  look_at(to_s);
+  evaluate_at(to_s);
   double t_s = from_s;
   while (t_s < to_s) {
-    look_at(t_s);
+    evaluate_at(t_s);
     if (best.t_s == t_s && stretch.Rate() < 0) {
       double closing_s = t_s;
       double opening_s = to_s;
       while (opening_s - closing_s > 1e-9) {
         const double middle_s = (closing_s + opening_s) / 2;
-        look_at(middle_s);
+        evaluate_at(middle_s);
         (stretch.Rate() < 0 ? closing_s : opening_s) = middle_s;
       }
-      stretch.LookAt(t_s);
+      stretch.EvaluateAt(t_s);
     }
     t_s += std::max(kShortestStep_s, stretch.SafeUntil(best.gap_m - kTouch_m));
   }

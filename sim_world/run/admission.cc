@@ -32,7 +32,7 @@ void Admission::Take(const JoinRequest& request) {
       waiting_, [&](const Waiting& w) { return w.request.session == request.session; });
   if (waiting != waiting_.end()) {
     waiting->asked = run_.Now();
-  } else if (waiting_.size() < kMostWaiting || roster_.SeatOf(request.session) != nullptr) {
+  } else if (waiting_.size() < kMostWaiting || roster_.SlotOf(request.session) != nullptr) {
     waiting_.push_back({request, run_.Now(), run_.Now(), ""});
   } else {
     ++passed_over_;
@@ -41,12 +41,12 @@ void Admission::Take(const JoinRequest& request) {
 
 void Admission::Leave(const SessionId& session) {
   std::erase_if(waiting_, [&](const Waiting& w) { return w.request.session == session; });
-  const Seat* seat = roster_.SeatOf(session);
-  if (seat == nullptr) return;
-  const VehicleId vehicle = seat->vehicle;
+  const Slot* slot = roster_.SlotOf(session);
+  if (slot == nullptr) return;
+  const VehicleId vehicle = slot->vehicle;
   run_.Leave(vehicle);
   roster_.Free(vehicle);
-  told_.erase(vehicle);
+  informed_.erase(vehicle);
   gone_.push_back(vehicle);
 }
 
@@ -55,15 +55,15 @@ void Admission::FollowRun() {
     if (event.kind != EventKind::kRemoved) continue;
     roster_.Free(event.vehicle);
     gone_.push_back(event.vehicle);
-    const auto told = told_.find(event.vehicle);
-    if (told == told_.end()) continue;
+    const auto informed = informed_.find(event.vehicle);
+    if (informed == informed_.end()) continue;
     // If it is still there and was deaf until now, it may ask again.
-    RosterEntry gone = told->second;
+    RosterEntry gone = informed->second;
     gone.accepted = false;
     gone.waiting = true;
     gone.reason = "the body was taken away after a silence";
-    to_tell_.push_back(std::move(gone));
-    told_.erase(told);
+    answers_.push_back(std::move(gone));
+    informed_.erase(informed);
   }
 }
 
@@ -72,57 +72,57 @@ std::vector<VehicleId> Admission::TakeGone() { return std::exchange(gone_, {}); 
 std::vector<RosterEntry> Admission::Answer() {
   for (auto waiting = waiting_.begin(); waiting != waiting_.end();) {
     Result result = Try(&*waiting);
-    if (result.tell) to_tell_.push_back(*std::move(result.tell));
+    if (result.answer) answers_.push_back(*std::move(result.answer));
     waiting = result.waits ? waiting + 1 : waiting_.erase(waiting);
   }
-  for (RosterEntry& entry : to_tell_) entry.run_state = run_.State();
-  return std::exchange(to_tell_, {});
+  for (RosterEntry& entry : answers_) entry.run_state = run_.State();
+  return std::exchange(answers_, {});
 }
 
 Admission::Result Admission::Try(Waiting* waiting) {
   const JoinRequest& request = waiting->request;
   // Its body from an earlier epoch still rolls: a pose sent now would soon be wrong.
-  if (const Seat* seat = roster_.SeatOf(request.session)) {
-    const auto told = told_.find(seat->vehicle);
-    if (told != told_.end()) {
-      run_.AsksAgain(seat->vehicle);
-      run_.Locate(roster_.OptionsOf(*seat), &told->second);
-      return {.waits = false, .tell = told->second};
+  if (const Slot* slot = roster_.SlotOf(request.session)) {
+    const auto informed = informed_.find(slot->vehicle);
+    if (informed != informed_.end()) {
+      run_.AsksAgain(slot->vehicle);
+      run_.Locate(roster_.OptionsOf(*slot), &informed->second);
+      return {.waits = false, .answer = informed->second};
     }
-    const Body* body = run_.BodyOf(seat->vehicle);
-    if (body != nullptr && !NoWheelTurns(*body)) return {.waits = true, .tell = {}};
+    const Body* body = run_.BodyOf(slot->vehicle);
+    if (body != nullptr && !NoWheelTurns(*body)) return {.waits = true, .answer = {}};
   }
   RosterEntry entry = roster_.Admit(
       request, {.is_silent = [this](VehicleId vehicle) { return MayTakeOver(vehicle); },
                 .is_free = [this](const VehicleOptions& options) { return IsFree(options); }});
   if (entry.accepted) {
     LetIn(std::move(entry));
-    return {.waits = false, .tell = {}};
+    return {.waits = false, .answer = {}};
   }
   // In an open fleet a place may become free at any time; a particular id is not worth that wait.
-  const bool forever = open_ && request.wanted == kNobody;
+  const bool forever = open_ && request.wanted == kNoVehicle;
   const bool forgotten = TicksBetween(waiting->asked, run_.Now()) >= patience_ticks_;
-  if (forever && forgotten) return {.waits = false, .tell = {}};
+  if (forever && forgotten) return {.waits = false, .answer = {}};
   const bool over = !forever && TicksBetween(waiting->since, run_.Now()) >= patience_ticks_;
   if (over) entry.waiting = false;
-  if (entry.waiting && entry.reason == waiting->told) return {.waits = true, .tell = {}};
-  waiting->told = entry.reason;
+  if (entry.waiting && entry.reason == waiting->last_reason) return {.waits = true, .answer = {}};
+  waiting->last_reason = entry.reason;
   const bool waits = entry.waiting;
-  return {.waits = waits, .tell = std::move(entry)};
+  return {.waits = waits, .answer = std::move(entry)};
 }
 
 void Admission::LetIn(RosterEntry entry) {
-  const VehicleOptions options = roster_.OptionsOf(*roster_.SeatOf(entry.session));
+  const VehicleOptions options = roster_.OptionsOf(*roster_.SlotOf(entry.session));
   run_.Join(options);
   run_.Locate(options, &entry);
-  to_tell_.push_back(entry);
-  const auto before = told_.find(entry.vehicle);
-  if (before != told_.end()) {
-    to_tell_.push_back(before->second);
-    to_tell_.back().accepted = false;
-    to_tell_.back().reason = "another session took its place after a silence";
+  answers_.push_back(entry);
+  const auto before = informed_.find(entry.vehicle);
+  if (before != informed_.end()) {
+    answers_.push_back(before->second);
+    answers_.back().accepted = false;
+    answers_.back().reason = "another session took its place after a silence";
   }
-  told_[entry.vehicle] = std::move(entry);
+  informed_[entry.vehicle] = std::move(entry);
 }
 
 bool Admission::MayTakeOver(VehicleId vehicle) const {
@@ -135,11 +135,11 @@ bool Admission::IsFree(const VehicleOptions& options) const {
   return run_.BodyOf(options.id) != nullptr || run_.IsFree(options);
 }
 
-std::vector<RosterEntry> Admission::TellAll(const std::string& reason) {
+std::vector<RosterEntry> Admission::InformAll(const std::string& reason) {
   std::vector<RosterEntry> entries;
-  for (auto& [vehicle, entry] : told_) {
-    if (const Seat* seat = roster_.SeatOf(entry.session)) {
-      run_.Locate(roster_.OptionsOf(*seat), &entry);
+  for (auto& [vehicle, entry] : informed_) {
+    if (const Slot* slot = roster_.SlotOf(entry.session)) {
+      run_.Locate(roster_.OptionsOf(*slot), &entry);
     }
     entry.run_state = run_.State();
     entry.reason = reason;
@@ -150,8 +150,8 @@ std::vector<RosterEntry> Admission::TellAll(const std::string& reason) {
 
 std::vector<VehicleId> Admission::Expected() const {
   std::vector<VehicleId> expected;
-  for (const Seat& seat : roster_.Seats()) {
-    if (seat.taken) expected.push_back(seat.vehicle);
+  for (const Slot& slot : roster_.Slots()) {
+    if (slot.taken) expected.push_back(slot.vehicle);
   }
   return expected;
 }
@@ -159,14 +159,14 @@ std::vector<VehicleId> Admission::Expected() const {
 FleetCheckpoint Admission::Save(std::uint64_t scenario) const {
   return {.scenario = scenario,
           .run = run_.Save(),
-          .seats = {roster_.Seats().begin(), roster_.Seats().end()}};
+          .slots = {roster_.Slots().begin(), roster_.Slots().end()}};
 }
 
 bool Admission::Restore(const FleetCheckpoint& checkpoint) {
-  if (!roster_.Restore(checkpoint.seats)) return false;
+  if (!roster_.Restore(checkpoint.slots)) return false;
   std::vector<VehicleOptions> joined;
-  for (const Seat& seat : checkpoint.seats) {
-    if (seat.spawn != 0) joined.push_back(roster_.OptionsOf(seat));
+  for (const Slot& slot : checkpoint.slots) {
+    if (slot.spawn != 0) joined.push_back(roster_.OptionsOf(slot));
   }
   return run_.Restore(checkpoint.run, joined);
 }

@@ -34,10 +34,10 @@ class Admission {
   // What there is to send since the last call, in this order. Before the run's Advance.
   std::vector<RosterEntry> Answer();
   // Every admitted vehicle is informed again, with the run's present state and this reason.
-  std::vector<RosterEntry> TellAll(const std::string& reason);
+  std::vector<RosterEntry> InformAll(const std::string& reason);
 
   // The sessions that know they are admitted, in this epoch.
-  const std::map<VehicleId, RosterEntry>& Told() const { return told_; }
+  const std::map<VehicleId, RosterEntry>& Informed() const { return informed_; }
   // Requests that found the waiting list full.
   std::uint32_t PassedOver() const { return passed_over_; }
   // Seats in use, whether informed or not: after Restore none is.
@@ -52,13 +52,13 @@ class Admission {
   struct Waiting {
     JoinRequest request;
     Tick since = kNoTick;
-    Tick asked = kNoTick;  // last
-    std::string told;      // the last reason it was sent
+    Tick asked = kNoTick;     // last
+    std::string last_reason;  // the last reason it was sent
   };
   // The result of a request in this tick; nothing if there is nothing to send.
   struct Result {
     bool waits = false;
-    std::optional<RosterEntry> tell;
+    std::optional<RosterEntry> answer;
   };
 
   Result Try(Waiting* waiting);
@@ -72,9 +72,9 @@ class Admission {
   std::uint32_t patience_ticks_;
   Roster roster_;
   std::vector<Waiting> waiting_;  // in order of asking
-  std::map<VehicleId, RosterEntry> told_;
+  std::map<VehicleId, RosterEntry> informed_;
   std::vector<VehicleId> gone_;
-  std::vector<RosterEntry> to_tell_;
+  std::vector<RosterEntry> answers_;
   std::uint32_t passed_over_ = 0;
 };
 

@@ -14,49 +14,49 @@ Roster::Roster(const Scenario& scenario, WorldEpoch epoch)
                         : static_cast<std::uint32_t>(scenario.vehicles.size())),
       named_(scenario.vehicles),
       spawns_(scenario.spawns) {
-  for (const VehicleOptions& options : named_) seats_.push_back({.vehicle = options.id});
+  for (const VehicleOptions& options : named_) slots_.push_back({.vehicle = options.id});
 }
 
-RosterEntry Roster::Admit(const JoinRequest& request, const SeatQuestions& ask) {
-  if (const Seat* seat = SeatOf(request.session)) return Accept(*seat);
-  if (request.wanted == kNobody) return AdmitAny(request, ask);
-  if (Seat* seat = Find(request.wanted)) return AdmitTo(seat, request, ask);
+RosterEntry Roster::Admit(const JoinRequest& request, const SlotQuestions& ask) {
+  if (const Slot* slot = SlotOf(request.session)) return Accept(*slot);
+  if (request.wanted == kNoVehicle) return AdmitAny(request, ask);
+  if (Slot* slot = Find(request.wanted)) return AdmitTo(slot, request, ask);
   if (open_) return AdmitBySpawn(request.wanted, request, ask);
   return Refuse(request, "id " + std::to_string(Number(request.wanted)) + " is not in the scenario",
                 false);
 }
 
-RosterEntry Roster::AdmitAny(const JoinRequest& request, const SeatQuestions& ask) {
+RosterEntry Roster::AdmitAny(const JoinRequest& request, const SlotQuestions& ask) {
   if (open_) return AdmitBySpawn(LowestFree(), request, ask);
-  const auto can_have = [&](const Seat& seat) {
-    return (!seat.taken || ask.is_silent(seat.vehicle)) && ask.is_free(OptionsOf(seat));
+  const auto can_have = [&](const Slot& slot) {
+    return (!slot.taken || ask.is_silent(slot.vehicle)) && ask.is_free(OptionsOf(slot));
   };
-  const auto seat = std::ranges::find_if(seats_, can_have);
-  if (seat == seats_.end()) return Refuse(request, "the fleet is full", true);
-  return AdmitTo(&*seat, request, ask);
+  const auto slot = std::ranges::find_if(slots_, can_have);
+  if (slot == slots_.end()) return Refuse(request, "the fleet is full", true);
+  return AdmitTo(&*slot, request, ask);
 }
 
-RosterEntry Roster::AdmitTo(Seat* seat, const JoinRequest& request, const SeatQuestions& ask) {
-  const std::string id = "id " + std::to_string(Number(seat->vehicle));
-  if (seat->taken && !ask.is_silent(seat->vehicle)) {
+RosterEntry Roster::AdmitTo(Slot* slot, const JoinRequest& request, const SlotQuestions& ask) {
+  const std::string id = "id " + std::to_string(Number(slot->vehicle));
+  if (slot->taken && !ask.is_silent(slot->vehicle)) {
     return Refuse(request, id + " is taken by another session", true);
   }
-  if (!ask.is_free(OptionsOf(*seat))) {
+  if (!ask.is_free(OptionsOf(*slot))) {
     return Refuse(request, "the start place of " + id + " is not free", true);
   }
-  seat->taken = true;
-  seat->session = request.session;
-  return Accept(*seat);
+  slot->taken = true;
+  slot->session = request.session;
+  return Accept(*slot);
 }
 
 RosterEntry Roster::AdmitBySpawn(VehicleId vehicle, const JoinRequest& request,
-                                 const SeatQuestions& ask) {
-  if (seats_.size() >= kMaxSeats) return Refuse(request, "the fleet is full", true);
+                                 const SlotQuestions& ask) {
+  if (slots_.size() >= kMaxSlots) return Refuse(request, "the fleet is full", true);
   for (std::uint32_t spawn = 1; spawn <= spawns_.size(); ++spawn) {
-    const Seat seat{vehicle, spawn, true, request.session};
-    if (IsPatrolled(spawn) || !ask.is_free(OptionsOf(seat))) continue;
-    const auto at = std::ranges::lower_bound(seats_, vehicle, {}, &Seat::vehicle);
-    return Accept(*seats_.insert(at, seat));
+    const Slot slot{vehicle, spawn, true, request.session};
+    if (IsPatrolled(spawn) || !ask.is_free(OptionsOf(slot))) continue;
+    const auto at = std::ranges::lower_bound(slots_, vehicle, {}, &Slot::vehicle);
+    return Accept(*slots_.insert(at, slot));
   }
   return Refuse(request, "no start place is free", true);
 }
@@ -64,74 +64,74 @@ RosterEntry Roster::AdmitBySpawn(VehicleId vehicle, const JoinRequest& request,
 // A vehicle on a looping route returns to its start: another one must not start there.
 bool Roster::IsPatrolled(std::uint32_t spawn) const {
   return spawns_[spawn - 1].route.loop &&
-         std::ranges::find(seats_, spawn, &Seat::spawn) != seats_.end();
+         std::ranges::find(slots_, spawn, &Slot::spawn) != slots_.end();
 }
 
 VehicleId Roster::LowestFree() const {
   std::uint32_t lowest = 1;
-  for (const Seat& seat : seats_) {  // sorted; named ones are always there
-    if (Number(seat.vehicle) == lowest) ++lowest;
+  for (const Slot& slot : slots_) {  // sorted; named ones are always there
+    if (Number(slot.vehicle) == lowest) ++lowest;
   }
   return VehicleId{lowest};
 }
 
 void Roster::Free(VehicleId vehicle) {
-  Seat* seat = Find(vehicle);
-  if (seat == nullptr) return;
+  Slot* slot = Find(vehicle);
+  if (slot == nullptr) return;
   if (IsNamed(vehicle)) {
-    *seat = {.vehicle = vehicle};
+    *slot = {.vehicle = vehicle};
   } else {
-    seats_.erase(seats_.begin() + (seat - seats_.data()));
+    slots_.erase(slots_.begin() + (slot - slots_.data()));
   }
 }
 
-const Seat* Roster::SeatOf(const SessionId& session) const {
-  const auto has = [&](const Seat& seat) { return seat.taken && seat.session == session; };
-  const auto seat = std::ranges::find_if(seats_, has);
-  return seat == seats_.end() ? nullptr : &*seat;
+const Slot* Roster::SlotOf(const SessionId& session) const {
+  const auto has = [&](const Slot& slot) { return slot.taken && slot.session == session; };
+  const auto slot = std::ranges::find_if(slots_, has);
+  return slot == slots_.end() ? nullptr : &*slot;
 }
 
-Seat* Roster::Find(VehicleId vehicle) {
-  const auto seat = std::ranges::lower_bound(seats_, vehicle, {}, &Seat::vehicle);
-  return seat == seats_.end() || seat->vehicle != vehicle ? nullptr : &*seat;
+Slot* Roster::Find(VehicleId vehicle) {
+  const auto slot = std::ranges::lower_bound(slots_, vehicle, {}, &Slot::vehicle);
+  return slot == slots_.end() || slot->vehicle != vehicle ? nullptr : &*slot;
 }
 
 bool Roster::IsNamed(VehicleId vehicle) const {
   return std::ranges::binary_search(named_, vehicle, {}, &VehicleOptions::id);
 }
 
-VehicleOptions Roster::OptionsOf(const Seat& seat) const {
-  if (seat.spawn == 0) {
-    return *std::ranges::lower_bound(named_, seat.vehicle, {}, &VehicleOptions::id);
+VehicleOptions Roster::OptionsOf(const Slot& slot) const {
+  if (slot.spawn == 0) {
+    return *std::ranges::lower_bound(named_, slot.vehicle, {}, &VehicleOptions::id);
   }
-  VehicleOptions options = spawns_[seat.spawn - 1];
-  options.id = seat.vehicle;
+  VehicleOptions options = spawns_[slot.spawn - 1];
+  options.id = slot.vehicle;
   return options;
 }
 
-bool Roster::Restore(std::span<const Seat> seats) {
-  const auto fits = [&](const Seat& seat) {
-    return seat.spawn == 0 ? IsNamed(seat.vehicle)
-                           : seat.spawn <= spawns_.size() && !IsNamed(seat.vehicle);
+bool Roster::Restore(std::span<const Slot> slots) {
+  const auto fits = [&](const Slot& slot) {
+    return slot.spawn == 0 ? IsNamed(slot.vehicle)
+                           : slot.spawn <= spawns_.size() && !IsNamed(slot.vehicle);
   };
-  if (!std::ranges::all_of(seats, fits)) return false;
-  for (const Seat& seat : seats) {
-    if (Seat* known = Find(seat.vehicle)) {
-      *known = seat;
+  if (!std::ranges::all_of(slots, fits)) return false;
+  for (const Slot& slot : slots) {
+    if (Slot* known = Find(slot.vehicle)) {
+      *known = slot;
     } else {
-      seats_.insert(std::ranges::lower_bound(seats_, seat.vehicle, {}, &Seat::vehicle), seat);
+      slots_.insert(std::ranges::lower_bound(slots_, slot.vehicle, {}, &Slot::vehicle), slot);
     }
   }
   return true;
 }
 
-RosterEntry Roster::Accept(const Seat& seat) const {
-  return {.session = seat.session,
-          .vehicle = seat.vehicle,
+RosterEntry Roster::Accept(const Slot& slot) const {
+  return {.session = slot.session,
+          .vehicle = slot.vehicle,
           .accepted = true,
           .epoch = epoch_,
-          .start_world = OptionsOf(seat).start_world,
-          .spawn = seat.spawn,
+          .start_world = OptionsOf(slot).start_world,
+          .spawn = slot.spawn,
           .fleet_size = fleet_size_};
 }
 

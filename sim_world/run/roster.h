@@ -15,15 +15,15 @@ namespace giveway::sim {
 // A fleet is open where the scenario has spawn places.
 inline bool IsOpen(const Scenario& scenario) { return !scenario.spawns.empty(); }
 
-struct Seat {
-  VehicleId vehicle = kNobody;
+struct Slot {
+  VehicleId vehicle = kNoVehicle;
   std::uint32_t spawn = 0;  // as RosterEntry::spawn
   bool taken = false;
   SessionId session{};
 };
 
 // What must be known about the world to assign a seat.
-struct SeatQuestions {
+struct SlotQuestions {
   // Whether the session with the vehicle's seat has fallen silent: then another may have it.
   std::function<bool(VehicleId)> is_silent = [](VehicleId) { return false; };
   // Whether a body could be put where these options start.
@@ -33,36 +33,36 @@ struct SeatQuestions {
 class Roster {
  public:
   // The most of an open fleet at any one time.
-  static constexpr std::size_t kMaxSeats = 1024;
+  static constexpr std::size_t kMaxSlots = 1024;
 
   Roster(const Scenario& scenario, WorldEpoch epoch);
 
   // Accepted with id and start pose; or `waiting` with the reason, if a seat may still become free;
   // or refused permanently with a reason. A session that has a seat always gets the same answer,
   // whatever id it asks for. run_state is set by the caller.
-  RosterEntry Admit(const JoinRequest& request, const SeatQuestions& ask = {});
+  RosterEntry Admit(const JoinRequest& request, const SlotQuestions& ask = {});
   // Frees the vehicle's seat.
   void Free(VehicleId vehicle);
 
   // The seat of the session; null if it has none.
-  const Seat* SeatOf(const SessionId& session) const;
+  const Slot* SlotOf(const SessionId& session) const;
   // The options with which the vehicle of a seat drives.
-  VehicleOptions OptionsOf(const Seat& seat) const;
+  VehicleOptions OptionsOf(const Slot& slot) const;
 
   // By id: the scenario's vehicles, taken or not, and those of other vehicles that are taken.
-  std::span<const Seat> Seats() const { return seats_; }
+  std::span<const Slot> Slots() const { return slots_; }
   // Returns false, and changes nothing, if a seat is not of this scenario.
-  bool Restore(std::span<const Seat> seats);
+  bool Restore(std::span<const Slot> slots);
 
  private:
   bool IsNamed(VehicleId vehicle) const;
-  Seat* Find(VehicleId vehicle);
-  RosterEntry AdmitAny(const JoinRequest& request, const SeatQuestions& ask);
-  RosterEntry AdmitTo(Seat* seat, const JoinRequest& request, const SeatQuestions& ask);
-  RosterEntry AdmitBySpawn(VehicleId vehicle, const JoinRequest& request, const SeatQuestions& ask);
+  Slot* Find(VehicleId vehicle);
+  RosterEntry AdmitAny(const JoinRequest& request, const SlotQuestions& ask);
+  RosterEntry AdmitTo(Slot* slot, const JoinRequest& request, const SlotQuestions& ask);
+  RosterEntry AdmitBySpawn(VehicleId vehicle, const JoinRequest& request, const SlotQuestions& ask);
   bool IsPatrolled(std::uint32_t spawn) const;
   VehicleId LowestFree() const;
-  RosterEntry Accept(const Seat& seat) const;
+  RosterEntry Accept(const Slot& slot) const;
   RosterEntry Refuse(const JoinRequest& request, std::string reason, bool waiting) const;
 
   WorldEpoch epoch_;
@@ -70,7 +70,7 @@ class Roster {
   std::uint32_t fleet_size_;
   std::vector<VehicleOptions> named_;   // sorted by id
   std::vector<VehicleOptions> spawns_;  // without id
-  std::vector<Seat> seats_;             // sorted by id
+  std::vector<Slot> slots_;             // sorted by id
 };
 
 }  // namespace giveway::sim

@@ -9,8 +9,8 @@
 namespace giveway::sim {
 namespace {
 
-constexpr Nanoseconds kToldGone{1'000'000'000};  // observers hear best effort, once a tick
-constexpr double kBeforeStart_s = -1;            // Truth::time_s while the start is still to come
+constexpr Nanoseconds kReportedGone{1'000'000'000};  // observers hear best effort, once a tick
+constexpr double kBeforeStart_s = -1;  // Truth::time_s while the start is still to come
 
 std::optional<std::uint32_t> DurationTicks(const Scenario& scenario) {
   if (IsEndless(scenario)) return std::nullopt;
@@ -30,8 +30,8 @@ Run::Run(const Scenario& scenario, WorldEpoch epoch, ParallelFor parallel,
       faults_(scenario),
       world_faults_(schedule, scenario.tick_period),
       silence_(schedule.faults),
-      judge_(scenario),
-      attendance_(scenario),
+      evaluator_(scenario),
+      liveness_(scenario),
       log_(epoch),
       duration_ticks_(DurationTicks(scenario)) {
   scans_.reserve(scenario.vehicles.size());
@@ -40,21 +40,21 @@ Run::Run(const Scenario& scenario, WorldEpoch epoch, ParallelFor parallel,
 
 void Run::Join(VehicleId vehicle) {
   world_.Join(vehicle);
-  attendance_.Join(vehicle, world_.Now());
+  liveness_.Join(vehicle, world_.Now());
 }
 
 void Run::Join(const VehicleOptions& options) {
   if (BodyOf(options.id) == nullptr) {
     world_.Join(options);
-    judge_.BeginAnew(options.id);
+    evaluator_.Restart(options.id);
   }
-  attendance_.Join(options.id, world_.Now());
+  liveness_.Join(options.id, world_.Now());
   faults_.Return(options.id);
   if (state_ == RunState::kRunning) Announce(EventKind::kJoined, options.id);
 }
 
 void Run::Leave(VehicleId vehicle) {
-  attendance_.Leave(vehicle);
+  liveness_.Leave(vehicle);
   if (BodyOf(vehicle) == nullptr) return;
   Announce(EventKind::kLeft, vehicle);
   TakeAway(vehicle);
@@ -91,7 +91,7 @@ void Run::Start() {
   GIVEWAY_CHECK(state_ == RunState::kWaiting);
   state_ = RunState::kRunning;
   started_ = true;
-  attendance_.Start(world_.Now());
+  liveness_.Start(world_.Now());
 }
 
 void Run::End(std::string reason) {
@@ -111,13 +111,13 @@ void Run::TakeAway(VehicleId vehicle) {
 
 void Run::ForgetGone() {
   forgotten_.clear();
-  const std::uint32_t told_ticks = TicksCovering(kToldGone, scenario_.tick_period);
+  const std::uint32_t reported_ticks = TicksCovering(kReportedGone, scenario_.tick_period);
   std::erase_if(gone_, [&](const Gone& gone) {
     if (BodyOf(gone.vehicle) != nullptr) return true;
-    if (TicksBetween(gone.since, world_.Now()) < told_ticks) return false;
+    if (TicksBetween(gone.since, world_.Now()) < reported_ticks) return false;
     world_.Forget(gone.vehicle);
-    attendance_.Leave(gone.vehicle);
-    judge_.Forget(gone.vehicle);
+    liveness_.Leave(gone.vehicle);
+    evaluator_.Forget(gone.vehicle);
     forgotten_.push_back(gone.vehicle);
     return true;
   });
@@ -149,7 +149,7 @@ void Run::Observe() {
     log_.Add({.kind = EventKind::kStarted, .value = static_cast<double>(fleet)});
   }
   LogSchedule();
-  judge_.Observe(TimeSeconds(), world_.Bodies(), world_.NewContacts(), &log_);
+  evaluator_.Observe(TimeSeconds(), world_.Bodies(), world_.NewContacts(), &log_);
   FollowFaults();
   FollowAttendance();
 }
@@ -164,19 +164,19 @@ void Run::LogSchedule() {
 
 void Run::Take(std::span<const MotorCommand> commands) {
   for (const MotorCommand& command : commands) {
-    const bool silent = attendance_.IsSilent(command.vehicle);
+    const bool silent = liveness_.IsSilent(command.vehicle);
     if (silent && !MayReturn(command.vehicle)) continue;
     if (!world_.Take(command)) continue;
     if (silent) {
-      attendance_.Join(command.vehicle, world_.Now());
+      liveness_.Join(command.vehicle, world_.Now());
       Announce(EventKind::kJoined, command.vehicle);
     }
-    attendance_.Heard(command.vehicle, After(world_.Now(), 1));
+    liveness_.Heard(command.vehicle, After(world_.Now(), 1));
   }
 }
 
 void Run::AsksAgain(VehicleId vehicle) {
-  if (!attendance_.IsSilent(vehicle)) attendance_.Join(vehicle, world_.Now());
+  if (!liveness_.IsSilent(vehicle)) liveness_.Join(vehicle, world_.Now());
 }
 
 // In a closed run silence is permanent unless it is planned. In an open one the network may have
@@ -191,7 +191,7 @@ bool Run::IsKilled(VehicleId vehicle) const {
 
 // Whether the vehicle is heard, or will be again as far as is known.
 bool Run::IsWaitedFor(VehicleId vehicle) const {
-  return !attendance_.IsSilent(vehicle) || (silence_.VehiclesReturn() && !IsKilled(vehicle));
+  return !liveness_.IsSilent(vehicle) || (silence_.VehiclesReturn() && !IsKilled(vehicle));
 }
 
 void Run::FollowFaults() {
@@ -202,11 +202,11 @@ void Run::FollowFaults() {
 
 void Run::FollowAttendance() {
   const Tick now = world_.Now();
-  for (VehicleId silent; (silent = attendance_.TakeNewlySilent(now)) != kNobody;) {
+  for (VehicleId silent; (silent = liveness_.TakeNewlySilent(now)) != kNoVehicle;) {
     log_.Add({.kind = EventKind::kSilent, .vehicle = silent});
     if (!open_ && !IsWaitedFor(silent) && !IsKilled(silent)) end_reason_ = "process_died";
   }
-  for (VehicleId gone; (gone = attendance_.TakeOverdueBody(now)) != kNobody;) {
+  for (VehicleId gone; (gone = liveness_.TakeOverdueBody(now)) != kNoVehicle;) {
     TakeAway(gone);
     log_.Add({.kind = EventKind::kRemoved, .vehicle = gone});
   }
@@ -231,7 +231,7 @@ bool Run::EveryoneLivingArrived() const {
   bool anyone = false;
   for (const Body& body : world_.Bodies()) {
     if (!body.joined || !IsWaitedFor(body.vehicle)) continue;
-    if (!judge_.HasArrived(body.vehicle)) return false;
+    if (!evaluator_.HasArrived(body.vehicle)) return false;
     anyone = true;
   }
   return anyone;
@@ -247,18 +247,18 @@ bool Run::IsEveryoneSilent() const {
 Outcome Run::TheOutcome() const {
   Outcome outcome;
   outcome.contacts = world_.Contacts();
-  outcome.halted = judge_.Halted();
-  outcome.halted_for = judge_.HaltedFor();
-  outcome.arrived = judge_.Arrived();
+  outcome.halted = evaluator_.Halted();
+  outcome.halted_for = evaluator_.HaltedFor();
+  outcome.arrived = evaluator_.Arrived();
   outcome.parted = world_.Approaches().Parted(world_.Bodies());
   if (const auto& closest = world_.Approaches().Closest()) {
     outcome.min_separation_m = closest->gap_m;
   }
   const bool cleared = std::ranges::all_of(world_.Bodies(), [&](const Body& body) {
-    return !body.joined || !body.goal.set || attendance_.IsSilent(body.vehicle) ||
-           judge_.HasArrived(body.vehicle);
+    return !body.joined || !body.goal.set || liveness_.IsSilent(body.vehicle) ||
+           evaluator_.HasArrived(body.vehicle);
   });
-  if (cleared) outcome.time_to_clear_s = judge_.LastArrival();
+  if (cleared) outcome.time_to_clear_s = evaluator_.LastArrival();
   return outcome;
 }
 
@@ -290,7 +290,7 @@ void Run::Finish() {
 
 void Run::Publish(bool drove) {
   truths_.clear();
-  further_.Sense(epoch_, &world_);
+  auxiliary_.Sense(epoch_, &world_);
   pose_sensing_.Sense(epoch_, world_.Now(), drove ? ticks_run_ : 0, world_.Bodies());
   if (world_faults_.AlterFixes()) {
     pose_sensing_.Lose([&](PoseFix& fix) { return !world_faults_.Alter(&fix); });
@@ -309,7 +309,7 @@ void Run::Publish(bool drove) {
                        .wheels = body.wheels,
                        .forward_m_s = body.ForwardSpeed(),
                        .present = body.present,
-                       .arrived = judge_.HasArrived(body.vehicle)});
+                       .arrived = evaluator_.HasArrived(body.vehicle)});
     if (!body.present) continue;
     RangeScan& scan = scans_[scans++];
     scan.vehicle = body.vehicle;
@@ -338,8 +338,8 @@ RunCheckpoint Run::Save() const {
           .ticks_run = ticks_run_,
           .faults = {faults_.States().begin(), faults_.States().end()},
           .world_faults = world_faults_.Save(),
-          .tracks = {judge_.Tracks().begin(), judge_.Tracks().end()},
-          .attendance = {attendance_.Entries().begin(), attendance_.Entries().end()},
+          .tracks = {evaluator_.Tracks().begin(), evaluator_.Tracks().end()},
+          .liveness = {liveness_.Entries().begin(), liveness_.Entries().end()},
           .world = world_.Save()};
 }
 
@@ -347,8 +347,8 @@ bool Run::Restore(const RunCheckpoint& checkpoint, std::span<const VehicleOption
   for (const VehicleOptions& options : joined) world_.Join(options);
   if (!faults_.Restore(checkpoint.faults) || !world_.Restore(checkpoint.world)) return false;
   if (!world_faults_.Restore(checkpoint.world_faults, checkpoint.ticks_run)) return false;
-  judge_.Restore(checkpoint.tracks);
-  attendance_.Restore(checkpoint.attendance);
+  evaluator_.Restore(checkpoint.tracks);
+  liveness_.Restore(checkpoint.liveness);
   for (const PlannedFault& fault : faults_.Lasting()) signals_.Fail(fault.signal, fault.kind);
   started_ = checkpoint.started;
   ticks_run_ = checkpoint.ticks_run;

@@ -23,16 +23,16 @@
 #include "services/types/parallel.h"
 #include "services/types/range_scan.h"
 #include "services/types/scenario.h"
+#include "sim_world/auxiliary_sensors.h"
 #include "sim_world/faults/planned_silence.h"
 #include "sim_world/faults/world_faults.h"
-#include "sim_world/further_sensing.h"
 #include "sim_world/pose_sensing.h"
-#include "sim_world/run/attendance.h"
 #include "sim_world/run/event_log.h"
 #include "sim_world/run/fault_plan.h"
-#include "sim_world/run/judge.h"
+#include "sim_world/run/liveness_monitor.h"
 #include "sim_world/run/run_checkpoint.h"
-#include "sim_world/run/signals.h"
+#include "sim_world/run/run_evaluator.h"
+#include "sim_world/run/traffic_lights.h"
 #include "sim_world/world.h"
 
 namespace giveway::sim {
@@ -71,9 +71,9 @@ class Run {
   // What the last Advance produced; valid until the next. Scans are of the bodies present, truths
   // of every vehicle that joined.
   std::span<const RangeScan> Scans() const { return scans_; }
-  std::span<const RadarScan> Radars() const { return further_.Radars(); }
-  std::span<const LidarScan> Lidars() const { return further_.Lidars(); }
-  std::span<const CameraScan> Cameras() const { return further_.Cameras(); }
+  std::span<const RadarScan> Radars() const { return auxiliary_.Radars(); }
+  std::span<const LidarScan> Lidars() const { return auxiliary_.Lidars(); }
+  std::span<const CameraScan> Cameras() const { return auxiliary_.Cameras(); }
   std::span<const PoseFix> PoseFixes() const { return pose_sensing_.Fixes(); }
   std::span<const SignalState> Signals() const { return signals_.States(); }
   std::span<const Truth> Truths() const { return truths_; }
@@ -103,7 +103,7 @@ class Run {
   std::span<const SlidingDoor> Doors() const { return world_.Doors(); }
   bool IsFree(const VehicleOptions& options) const { return world_.IsFree(options); }
   // True if no process runs the vehicle any more, or not yet.
-  bool IsAbandoned(VehicleId vehicle) const { return attendance_.IsAbandoned(vehicle, Now()); }
+  bool IsAbandoned(VehicleId vehicle) const { return liveness_.IsAbandoned(vehicle, Now()); }
 
   // Everything that a run of the same scenario in a new epoch needs to continue from here.
   RunCheckpoint Save() const;
@@ -114,7 +114,7 @@ class Run {
 
  private:
   struct Gone {
-    VehicleId vehicle = kNobody;
+    VehicleId vehicle = kNoVehicle;
     Tick since = kNoTick;
   };
 
@@ -140,14 +140,14 @@ class Run {
   bool open_;
   WorldEpoch epoch_;
   World world_;
-  FurtherSensing further_;
+  AuxiliarySensors auxiliary_;
   PoseSensing pose_sensing_;
   SignalHeads signals_;
   FaultPlan faults_;
   WorldFaults world_faults_;
   PlannedSilence silence_;
-  Judge judge_;
-  Attendance attendance_;
+  RunEvaluator evaluator_;
+  LivenessMonitor liveness_;
   EventLog log_;
   RunState state_ = RunState::kWaiting;
   std::optional<std::uint32_t> duration_ticks_;  // empty: until End

@@ -143,7 +143,7 @@ void Visit(Archive& archive, ObstacleState& obstacle) {
 }
 
 template <typename Archive>
-void Visit(Archive& archive, TouchingPair& pair) {
+void Visit(Archive& archive, ContactPair& pair) {
   archive(pair.vehicle, pair.touched, pair.other);
 }
 
@@ -156,8 +156,8 @@ void Visit(Archive& archive, ClosestApproach& closest) {
 template <typename Archive>
 void Visit(Archive& archive, SeparationRecord& record) {
   struct Pair {
-    VehicleId vehicle = kNobody;
-    VehicleId other = kNobody;
+    VehicleId vehicle = kNoVehicle;
+    VehicleId other = kNoVehicle;
     double gap_m = 0;
   };
   std::vector<Pair> pairs;
@@ -179,13 +179,13 @@ void Visit(Archive& archive, Checkpoint& world) {
 }
 
 template <typename Archive>
-void Visit(Archive& archive, Judge::Track& track) {
+void Visit(Archive& archive, RunEvaluator::Track& track) {
   archive(track.vehicle, track.still_ticks, track.halted, track.halted_once, track.stopping_for,
           track.halted_for, track.arrived_before, track.arrived_s);
 }
 
 template <typename Archive>
-void Visit(Archive& archive, Attendance::Entry& entry) {
+void Visit(Archive& archive, LivenessMonitor::Entry& entry) {
   archive(entry.vehicle, entry.heard, entry.spoke, entry.silent_since, entry.removed);
 }
 
@@ -202,17 +202,17 @@ void Visit(Archive& archive, WorldFaults::State& fault) {
 template <typename Archive>
 void Visit(Archive& archive, RunCheckpoint& run) {
   archive(run.epoch, run.started, run.ticks_run, run.faults, run.world_faults, run.tracks,
-          run.attendance, run.world);
+          run.liveness, run.world);
 }
 
 template <typename Archive>
-void Visit(Archive& archive, Seat& seat) {
-  archive(seat.vehicle, seat.spawn, seat.taken, seat.session);
+void Visit(Archive& archive, Slot& slot) {
+  archive(slot.vehicle, slot.spawn, slot.taken, slot.session);
 }
 
 template <typename Archive>
 void Visit(Archive& archive, FleetCheckpoint& checkpoint) {
-  archive(checkpoint.scenario, checkpoint.run, checkpoint.seats);
+  archive(checkpoint.scenario, checkpoint.run, checkpoint.slots);
 }
 
 // Eight bytes at a time; what is left over counts as a number of its own.

@@ -11,10 +11,10 @@
 
 #include "sim_world/checkpoint.h"
 #include "sim_world/faults/world_faults.h"
-#include "sim_world/run/attendance.h"
 #include "sim_world/run/fault_plan.h"
-#include "sim_world/run/judge.h"
+#include "sim_world/run/liveness_monitor.h"
 #include "sim_world/run/roster.h"
+#include "sim_world/run/run_evaluator.h"
 
 namespace giveway::sim {
 
@@ -24,15 +24,15 @@ struct RunCheckpoint {
   std::uint32_t ticks_run = 0;
   std::vector<FaultPlan::State> faults;          // the scenario's
   std::vector<WorldFaults::State> world_faults;  // of a schedule, active
-  std::vector<Judge::Track> tracks;
-  std::vector<Attendance::Entry> attendance;
+  std::vector<RunEvaluator::Track> tracks;
+  std::vector<LivenessMonitor::Entry> liveness;
   Checkpoint world;
 };
 
 struct FleetCheckpoint {
   std::uint64_t scenario = 0;  // the caller's mark of the scenario; that of another is refused
   RunCheckpoint run;
-  std::vector<Seat> seats;
+  std::vector<Slot> slots;
 };
 
 std::string ToBytes(FleetCheckpoint checkpoint);

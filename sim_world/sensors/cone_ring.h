@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "services/types/profile.h"
+#include "services/types/robot_model.h"
 #include "sim_world/sensors/sonar_cone.h"
 
 namespace giveway::sim {

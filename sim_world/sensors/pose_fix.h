@@ -12,7 +12,7 @@ namespace giveway::sim {
 
 struct PoseFixMoment {
   std::uint32_t seed = 0;  // the scenario's
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   std::uint32_t driven_tick = 0;  // since the start signal, from 1
   double dt_s = 0;
   Pose world_from_body;  // the truth at the end of the tick

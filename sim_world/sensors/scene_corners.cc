@@ -25,14 +25,14 @@ struct Arm {
 
 void AddArm(Vec2 from, Vec2 to, std::vector<Arm>* arms) {
   constexpr double kSame_rad = 1e-3;
-  const Vec2 way = to - from;
-  const double length_m = Norm(way);
+  const Vec2 displacement = to - from;
+  const double length_m = Norm(displacement);
   if (length_m <= kMeet_m) return;
-  const double bearing_rad = Atan2(way.y, way.x);
+  const double bearing_rad = Atan2(displacement.y, displacement.x);
   const bool known = std::ranges::any_of(*arms, [&](const Arm& arm) {
     return Magnitude(WrapAngle(arm.bearing_rad - bearing_rad)) < kSame_rad;
   });
-  if (!known) arms->push_back({bearing_rad, (1 / length_m) * way});
+  if (!known) arms->push_back({bearing_rad, (1 / length_m) * displacement});
 }
 
 bool AreOnePoint(Vec2 a, Vec2 b) { return SquaredNorm(a - b) <= kMeet_m * kMeet_m; }

@@ -13,7 +13,7 @@
 namespace giveway::sim {
 
 // What a sensor can learn of a shape's owner besides its outline. Owners are numbered as in
-// things.h; walls have none.
+// collidables.h; walls have none.
 struct OwnerFacts {
   Vec2 velocity_world;    // m/s, of the middle of a disc or box, of the whole of a segment
   double turn_rad_s = 0;  // of a disc or box about its middle
@@ -28,7 +28,7 @@ struct SensorView {
   Pose world_from_body;
   Vec2 velocity_world;  // of the axle centre
   // What the scan is stamped with.
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   WorldEpoch epoch = kNoEpoch;
   Tick tick = kNoTick;
 

@@ -47,7 +47,7 @@ struct SonarState {
 
 // A vehicle that senses, at one instant.
 struct SonarSubject {
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   Owner owner = kNoOwner;  // of its own shapes in the scene
   Pose world_from_body;
   const SonarRing* ring = nullptr;

@@ -17,9 +17,9 @@ class Listener {
            std::uint32_t transducers, Lanes* range_m)
       : scene_(scene),
         ring_(ring),
-        ear_{.position_world = world_from_body.position_world,
-             .x_axis_world = Forward(world_from_body),
-             .self = self},
+        receiver_{.position_world = world_from_body.position_world,
+                  .x_axis_world = Forward(world_from_body),
+                  .self = self},
         transducers_(transducers),
         range_m_(range_m) {}
 
@@ -27,8 +27,8 @@ class Listener {
   // centre; `answers(apex_world)`: from there.
   template <typename Reach, typename Answers>
   void Hear(Vec2 at_world, double near_m, const Reach& reach, const Answers& answers) {
-    if (SquaredNorm(at_world - ear_.position_world) > near_m * near_m) return;
-    const Vec2 at = ear_.ToBody(at_world);
+    if (SquaredNorm(at_world - receiver_.position_world) > near_m * near_m) return;
+    const Vec2 at = receiver_.ToBody(at_world);
     for (std::uint32_t left = transducers_; left != 0; left &= left - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(left));
       const Cone& cone = ring_.ConeBody(i);
@@ -41,7 +41,7 @@ class Listener {
       const double across_m = Cross(cone.axis, to);
       const double off = across_m * across_m / (squared_m2 * cone.sin_half * cone.sin_half);
       if (distance_m > reach(off)) continue;
-      const Vec2 apex_world = ear_.ToWorld(cone.apex);
+      const Vec2 apex_world = receiver_.ToWorld(cone.apex);
       if (!answers(apex_world) || IsHidden(apex_world, at_world, distance_m)) continue;
       range_m_->of[i] = distance_m;
     }
@@ -51,12 +51,12 @@ class Listener {
   bool IsHidden(Vec2 apex_world, Vec2 at_world, double distance_m) const {
     if (distance_m <= kBefore_m) return false;
     const Vec2 before = at_world + kBefore_m / distance_m * (apex_world - at_world);
-    return IsBlocked(scene_, apex_world, before, ear_.self, ear_.self);
+    return IsBlocked(scene_, apex_world, before, receiver_.self, receiver_.self);
   }
 
   const Scene& scene_;
   const SonarRing& ring_;
-  Ear ear_;
+  Receiver receiver_;
   std::uint32_t transducers_;
   Lanes* range_m_;
 };

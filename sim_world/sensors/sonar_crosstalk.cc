@@ -29,10 +29,10 @@ Pulses PulsesOf(const SonarRing& ring, const Pose& world_from_body,
 
 double CrosstalkRange(const Pulse& listener, const Pulse& talker) {
   if (!listener.fired || !talker.fired) return kSilence_m;
-  const Vec2 way = talker.apex_world - listener.apex_world;
-  const double distance_m = Norm(way);
-  const bool mutual = Dot(listener.axis_world, way) >= distance_m * listener.cos_half &&
-                      -Dot(talker.axis_world, way) >= distance_m * talker.cos_half;
+  const Vec2 displacement = talker.apex_world - listener.apex_world;
+  const double distance_m = Norm(displacement);
+  const bool mutual = Dot(listener.axis_world, displacement) >= distance_m * listener.cos_half &&
+                      -Dot(talker.axis_world, displacement) >= distance_m * talker.cos_half;
   return mutual && distance_m / 2 <= listener.max_range_m ? distance_m / 2 : kSilence_m;
 }
 

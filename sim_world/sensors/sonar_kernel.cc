@@ -56,12 +56,12 @@ namespace avx512 {
 
 }  // namespace
 
-Vec2 Ear::ToBody(Vec2 point_world) const {
+Vec2 Receiver::ToBody(Vec2 point_world) const {
   const Vec2 offset_world = point_world - position_world;
   return {Dot(x_axis_world, offset_world), Cross(x_axis_world, offset_world)};
 }
 
-Vec2 Ear::ToWorld(Vec2 point_body) const {
+Vec2 Receiver::ToWorld(Vec2 point_body) const {
   return position_world + point_body.x * x_axis_world + point_body.y * Left(x_axis_world);
 }
 

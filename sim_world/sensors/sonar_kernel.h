@@ -17,7 +17,7 @@
 namespace giveway::sim {
 
 // The listening vehicle, its pose, and what it listens to.
-struct Ear {
+struct Receiver {
   Vec2 position_world;
   Vec2 x_axis_world;  // of the body: one sine and cosine for all that is near
   Owner self = kNoOwner;
@@ -66,14 +66,15 @@ struct NearSegments {
 struct SonarKernel {
   // Add objects until the list is full, and return how many they took. Out of a stretch of discs
   // perhaps some that follow it in memory too.
-  std::size_t (*gather_discs)(const Ear& ear, const SceneDiscs& discs, std::size_t begin,
+  std::size_t (*gather_discs)(const Receiver& receiver, const SceneDiscs& discs, std::size_t begin,
                               std::size_t end, NearDiscs* near);
-  std::size_t (*gather_walls)(const Ear& ear, std::span<const SceneSegment> walls,
+  std::size_t (*gather_walls)(const Receiver& receiver, std::span<const SceneSegment> walls,
                               std::span<const std::uint32_t> which, NearSegments* near);
   // Lower each range to that of the nearest object of the list, as RangeToDisc and RangeToSegment
   // state it, but without the limit of range.
-  void (*hear_discs)(const ConeRing& ring, const Ear& ear, const NearDiscs& near, Lanes* range_m);
-  void (*hear_segments)(const ConeRing& ring, const Ear& ear, const NearSegments& near,
+  void (*hear_discs)(const ConeRing& ring, const Receiver& receiver, const NearDiscs& near,
+                     Lanes* range_m);
+  void (*hear_segments)(const ConeRing& ring, const Receiver& receiver, const NearSegments& near,
                         Lanes* range_m);
 };
 

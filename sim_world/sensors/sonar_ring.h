@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "services/types/profile.h"
 #include "services/types/range_scan.h"
+#include "services/types/robot_model.h"
 #include "services/types/scenario.h"
 #include "sim_world/sensors/scene.h"
 #include "sim_world/sensors/sonar_cone.h"
@@ -25,7 +25,7 @@ using Readings = std::array<RangeReading, kSensorCount>;
 
 class SonarRing {
  public:
-  explicit SonarRing(const VehicleProfile& profile, SimdWidth width = FastestSimd());
+  explicit SonarRing(const RobotModel& profile, SimdWidth width = FastestSimd());
 
   // Metres from each transducer; kSilence_m where nothing answers within range and where the
   // transducer is switched off. Shapes of `self` are not heard. A box is four flat surfaces; in it
@@ -49,9 +49,9 @@ class SonarRing {
   friend bool operator==(const SonarRing& a, const SonarRing& b);
 
  private:
-  void HearDiscs(const Scene& scene, const Ear& ear, Lanes* range_m) const;
-  void HearSegments(const Scene& scene, const Ear& ear, Lanes* range_m) const;
-  void HearFromInBoxes(const Scene& scene, const Ear& ear, Lanes* range_m) const;
+  void HearDiscs(const Scene& scene, const Receiver& receiver, Lanes* range_m) const;
+  void HearSegments(const Scene& scene, const Receiver& receiver, Lanes* range_m) const;
+  void HearFromInBoxes(const Scene& scene, const Receiver& receiver, Lanes* range_m) const;
 
   const SonarKernel* kernel_;
   ConeRing cones_;  // the same as below, as the kernel wants it
@@ -70,7 +70,7 @@ class SonarRings {
   explicit SonarRings(SimdWidth width = FastestSimd()) : width_(width) {}
 
   // Its address is stable as long as this object lives.
-  const SonarRing& Of(const VehicleProfile& profile);
+  const SonarRing& Of(const RobotModel& profile);
 
  private:
   SimdWidth width_;

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "services/types/ids.h"
-#include "services/types/profile.h"
+#include "services/types/robot_model.h"
 #include "services/types/time.h"
 
 namespace giveway::sim {

@@ -23,7 +23,7 @@ bool ExcludeEachOther(const VehicleOptions& a, const VehicleOptions& b) {
 GoalTolerance ToleranceOf(const VehicleOptions& options) {
   constexpr double kSigmas = 3;
   constexpr double kDetour = 1.5;
-  const VehicleProfile& profile = options.profile;
+  const RobotModel& profile = options.profile;
   const double squared =
       profile.wheel_slip * profile.wheel_slip + profile.encoder_noise * profile.encoder_noise;
   const PoseFixModel& fixes = profile.pose_fix;
@@ -35,10 +35,10 @@ GoalTolerance ToleranceOf(const VehicleOptions& options) {
     return {options.goal.at_world, options.goal.radius_m + kSigmas * profile.pose_limit_m};
   }
   if (squared == 0) return {};
-  const double way_m = kDetour * RouteLength(options);
+  const double path_m = kDetour * RouteLength(options);
   const double tick_m = options.cruise_m_s * Seconds(options.tick_period);
   const double heading_rad = Sqrt(2 * squared) * tick_m / profile.drive.axle_m;
-  const double beside_m = heading_rad * way_m * Sqrt(way_m / tick_m / 3);
+  const double beside_m = heading_rad * path_m * Sqrt(path_m / tick_m / 3);
   return {options.goal.at_world, options.goal.radius_m + kSigmas * beside_m};
 }
 

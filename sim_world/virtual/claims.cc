@@ -94,8 +94,8 @@ std::span<const std::uint32_t> Claims::Observe(Tick tick, std::span<const Observ
       const Beacon* said = SaidBefore(tick, ago, track);
       inside = said == nullptr || IsInside(tick, *said, now, track);
     }
-    if (!inside && !track.told) left_.push_back(i);
-    track.told = !inside;
+    if (!inside && !track.reported) left_.push_back(i);
+    track.reported = !inside;
     if (now.lives && now.beacon->tick == tick) track.said[Number(tick) % kKept] = *now.beacon;
   }
   return left_;

@@ -37,7 +37,7 @@ class Claims {
     std::array<Beacon, kKept> said{};  // [tick % kKept]
     std::optional<Claim> braking;      // of when it started to brake; empty: it does not
     double braking_slack_m = 0;
-    bool told = false;
+    bool reported = false;
   };
 
   Claim ClaimOfBeacon(const Beacon& said, double unknown_s, const Track& track) const;

@@ -78,7 +78,7 @@ bool Clearance::IsNearThing(const Approaching& own, const Surroundings& around) 
 bool Clearance::FindNear(std::size_t index, std::span<const Observed> vehicles,
                          const Surroundings& around, VehicleId* other) const {
   const Observed& now = vehicles[index];
-  const VehicleProfile& profile = tracks_[index].profile;
+  const RobotModel& profile = tracks_[index].profile;
   const Approaching own{
       .body = StandingAt(profile, {now.position_world, now.heading_rad}),
       .velocity_world = now.forward_m_s * Vec2{Cos(now.heading_rad), Sin(now.heading_rad)},
@@ -98,10 +98,10 @@ std::span<const TooNear> Clearance::Observe(std::span<const Observed> vehicles,
   for (std::uint32_t i = 0; i < vehicles.size(); ++i) {
     const Observed& now = vehicles[i];
     if (!now.present || Magnitude(now.forward_m_s) < kStandstill_m_s) continue;
-    VehicleId other = kNobody;
+    VehicleId other = kNoVehicle;
     const bool near = FindNear(i, vehicles, around, &other);
-    if (near && !tracks_[i].told) too_near_.push_back({i, other});
-    tracks_[i].told = near;
+    if (near && !tracks_[i].reported) too_near_.push_back({i, other});
+    tracks_[i].reported = near;
   }
   return too_near_;
 }

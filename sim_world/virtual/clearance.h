@@ -22,10 +22,10 @@ struct Surroundings {
   std::span<const SlidingDoor> doors;
 };
 
-// By index in Observed; kNobody: it is no vehicle.
+// By index in Observed; kNoVehicle: it is no vehicle.
 struct TooNear {
   std::uint32_t vehicle = 0;
-  VehicleId other = kNobody;
+  VehicleId other = kNoVehicle;
 };
 
 class Clearance {
@@ -41,9 +41,9 @@ class Clearance {
 
  private:
   struct Track {
-    VehicleId vehicle = kNobody;
-    VehicleProfile profile;
-    bool told = false;
+    VehicleId vehicle = kNoVehicle;
+    RobotModel profile;
+    bool reported = false;
   };
   // A wall and what its margin can be touched from.
   struct BoundWall {

@@ -30,9 +30,9 @@ double RouteLength(const VehicleOptions& options) {
 }
 
 double FreeFlowSeconds(const VehicleOptions& options) {
-  const double way_m = std::max(0.0, RouteLength(options) - options.goal.radius_m);
+  const double path_m = std::max(0.0, RouteLength(options) - options.goal.radius_m);
   const double cruise = options.cruise_m_s;
-  return way_m / cruise + cruise / (2 * options.profile.acceleration_m_s2) +
+  return path_m / cruise + cruise / (2 * options.profile.acceleration_m_s2) +
          cruise / (2 * options.profile.deceleration_m_s2);
 }
 
@@ -42,9 +42,9 @@ double AloneSeconds(const VehicleOptions& options) {
   Vec2 at = options.start_world.position_world;
   double heading_rad = options.start_world.heading_rad;
   const auto turn_to = [&](Vec2 next) {
-    const Vec2 way = next - at;
-    if (SquaredNorm(way) < 1e-6) return;
-    const double next_rad = Atan2(way.y, way.x);
+    const Vec2 displacement = next - at;
+    if (SquaredNorm(displacement) < 1e-6) return;
+    const double next_rad = Atan2(displacement.y, displacement.x);
     turned_rad += Magnitude(WrapAngle(next_rad - heading_rad));
     heading_rad = next_rad;
     at = next;

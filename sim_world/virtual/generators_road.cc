@@ -43,9 +43,9 @@ void SendThrough(const Passage& passage, std::uint32_t vehicles, Layout* layout)
     const std::uint32_t bay = bays[i % 2][place];
     const double bay_m = half_m + 4 + kBay_m * (bay / 2);
     const double side_m = bay % 2 == 0 ? kBeside_m : -kBeside_m;
-    const std::array way = {turned(-half_m - 0.8, -lane_m), turned(half_m + 0.8, -lane_m),
-                            turned(half_m + 2.5, -kExitLane_m), turned(bay_m, -kExitLane_m)};
-    layout->Add(turned(-start_m, -row_m), way, turned(bay_m, -kExitLane_m - side_m));
+    const std::array route = {turned(-half_m - 0.8, -lane_m), turned(half_m + 0.8, -lane_m),
+                              turned(half_m + 2.5, -kExitLane_m), turned(bay_m, -kExitLane_m)};
+    layout->Add(turned(-start_m, -row_m), route, turned(bay_m, -kExitLane_m - side_m));
   }
 }
 
@@ -79,14 +79,14 @@ Scenario MakeRoundabout(const Size& size) {
     const double first_rad = kPi / 2 * from + beside_rad;
     const double arc_rad = kPi / 2 * roads_on - 2 * beside_rad;
     const auto steps = static_cast<std::uint32_t>(arc_rad / kStep_rad) + 1;
-    std::vector<Vec2> way;
+    std::vector<Vec2> route;
     for (std::uint32_t step = 0; step <= steps; ++step) {
-      way.push_back(ring_m * Direction(first_rad + arc_rad * step / steps));
+      route.push_back(ring_m * Direction(first_rad + arc_rad * step / steps));
     }
     const Vec2 away = Direction(kPi / 2 * to);
     const double bay_m = ring_m + 4 + kBay_m * parked[to]++;
-    way.push_back(bay_m * away + kLane_m * Right(away));
-    layout.Add(start_m * out + kLane_m * Left(out), way,
+    route.push_back(bay_m * away + kLane_m * Right(away));
+    layout.Add(start_m * out + kLane_m * Left(out), route,
                bay_m * away + (kLane_m + kBeside_m) * Right(away));
   }
   return layout.Take();
@@ -142,8 +142,8 @@ Scenario MakeMerge(const Size& size) {
     const double start_m =
         kBefore_m + kQueue_m * (i / 2) + layout.Dice().Uniform(-kMoved_m, kMoved_m);
     const double bay_m = 4 + kBay_m * bays[i];
-    const std::array way = {Vec2{0, 0}, Vec2{1.5, 0}, Vec2{bay_m, 0}};
-    layout.Add(-start_m * along[i % 2], way, {bay_m, -kBeside_m});
+    const std::array route = {Vec2{0, 0}, Vec2{1.5, 0}, Vec2{bay_m, 0}};
+    layout.Add(-start_m * along[i % 2], route, {bay_m, -kBeside_m});
   }
   return layout.Take();
 }

@@ -83,25 +83,25 @@ void AddFetching(std::uint32_t i, std::uint32_t slot, Layout* layout) {
       kRows_m - kRowQueue_m * (i % kRowDepth) + layout->Dice().Uniform(-0.15, 0.15);
   const double lane_y = AisleY(slot) - kAisleLane_m;
   const double road_x = WestLane(start_y, lane_y);
-  const std::array way = {Vec2{road_x, start_y}, Vec2{road_x, lane_y}, Vec2{0.6, lane_y},
-                          Vec2{SlotX(slot), lane_y}};
-  layout->Add({start_x, start_y}, way, {SlotX(slot), AisleY(slot) - kStrip_m});
+  const std::array route = {Vec2{road_x, start_y}, Vec2{road_x, lane_y}, Vec2{0.6, lane_y},
+                            Vec2{SlotX(slot), lane_y}};
+  layout->Add({start_x, start_y}, route, {SlotX(slot), AisleY(slot) - kStrip_m});
 }
 
 void AddLeavingWest(std::uint32_t goal, std::uint32_t slot, Layout* layout) {
   const double goal_y = kTurn_m * (goal / 2) + kBay_m * (goal % 2);
   const double lane_y = AisleY(slot) + kAisleLane_m;
   const double road_x = WestLane(lane_y, goal_y);
-  const std::array way = {Vec2{SlotX(slot), lane_y}, Vec2{road_x, lane_y}, Vec2{road_x, goal_y}};
-  layout->Add({SlotX(slot), AisleY(slot) + kStrip_m}, way, {kGoals_m, goal_y});
+  const std::array route = {Vec2{SlotX(slot), lane_y}, Vec2{road_x, lane_y}, Vec2{road_x, goal_y}};
+  layout->Add({SlotX(slot), AisleY(slot) + kStrip_m}, route, {kGoals_m, goal_y});
 }
 
 void AddLeavingEast(std::uint32_t goal, std::uint32_t slot, Layout* layout) {
   const double goal_y = kBay_m * goal;
   const double lane_y = AisleY(slot) - kAisleLane_m;
   const double road_x = EastLane(lane_y, goal_y);
-  const std::array way = {Vec2{SlotX(slot), lane_y}, Vec2{road_x, lane_y}, Vec2{road_x, goal_y}};
-  layout->Add({SlotX(slot), AisleY(slot) + kStrip_m}, way, {kEastGoals_m, goal_y});
+  const std::array route = {Vec2{SlotX(slot), lane_y}, Vec2{road_x, lane_y}, Vec2{road_x, goal_y}};
+  layout->Add({SlotX(slot), AisleY(slot) + kStrip_m}, route, {kEastGoals_m, goal_y});
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ void AddBays(std::uint32_t columns, Layout* layout) {
 
 // The smallest distance, shell to segment, from the path of any vehicle, its start and goal
 // included; huge without vehicles.
-double ShellToWays(const Scenario& scenario, Vec2 from, Vec2 to) {
+double ShellToRoutes(const Scenario& scenario, Vec2 from, Vec2 to) {
   double least_m = 1e6;
   for (const VehicleOptions& vehicle : scenario.vehicles) {
     const Vec2 start = vehicle.start_world.position_world;
@@ -112,14 +112,14 @@ Scenario MakeParking(const Size& size) {
     const bool taken = i < leaving && layout.Dice().Next() % 2 == 0;
     const Vec2 bay = BayAt(bays[taken ? i : leaving + i]);
     const double start_m = kRoad_m - 1 - kQueue_m * i + layout.Dice().Uniform(-0.2, 0.2);
-    const std::array way = {Vec2{kRoad_m + 1, -kParkLane_m}, Vec2{bay.x, -kParkLane_m}};
-    layout.Add({start_m, -kParkLane_m}, way, bay);
+    const std::array route = {Vec2{kRoad_m + 1, -kParkLane_m}, Vec2{bay.x, -kParkLane_m}};
+    layout.Add({start_m, -kParkLane_m}, route, bay);
   }
   for (std::uint32_t i = 0; i < leaving; ++i) {
     const Vec2 bay = BayAt(bays[i]);
     const double place_m = kRoad_m - 2 - kBay_m * places[i];
-    const std::array way = {Vec2{bay.x, kParkLane_m}, Vec2{place_m, kParkLane_m}};
-    layout.Add(bay, way, {place_m, kParkLane_m + kBeside_m});
+    const std::array route = {Vec2{bay.x, kParkLane_m}, Vec2{place_m, kParkLane_m}};
+    layout.Add(bay, route, {place_m, kParkLane_m + kBeside_m});
   }
   return layout.Take();
 }
@@ -137,13 +137,13 @@ Scenario MakeMixedYard(const Size& size) {
       std::max(3.0, std::ceil(std::sqrt(20.0 * size.vehicles) / kCell_m)));
   const double side_m = kCell_m * (columns - 1);
   layout.AddCellToCell(size.vehicles, columns);
-  const std::uint32_t things = 2 + size.vehicles / 2;
-  for (std::uint32_t i = 0; i < things; ++i) {
+  const std::uint32_t collidables = 2 + size.vehicles / 2;
+  for (std::uint32_t i = 0; i < collidables; ++i) {
     double best_m = 1e6;
     Thing best;
     for (int draw = 0; draw < kDraws; ++draw) {
       const Thing thing = DrawThing(side_m, &layout.Dice());
-      const double away_m = ShellToWays(layout.SoFar(), thing.from, thing.to) - thing.round_m;
+      const double away_m = ShellToRoutes(layout.SoFar(), thing.from, thing.to) - thing.round_m;
       if (away_m < kNearest_m || away_m >= best_m) continue;
       best_m = away_m;
       best = thing;

@@ -86,7 +86,7 @@ void Invariants::Admit(const VehicleOptions& options) {
   clearance_.Admit(options);
 }
 
-void Invariants::Tell(Invariant invariant, Tick tick, VehicleId vehicle, VehicleId other) {
+void Invariants::Report(Invariant invariant, Tick tick, VehicleId vehicle, VehicleId other) {
   ++counts_[static_cast<std::size_t>(invariant)];
   const std::uint32_t index = IndexOf(vehicle);
   const Rule rule = index == kUnknown ? Rule::kNotRunning : tracks_[index].rule;
@@ -131,7 +131,7 @@ void Invariants::Observe(Tick tick, double time_s, std::span<const Observed> veh
   for (std::size_t i = 0; i < vehicles.size(); ++i) JudgeOrder(tick, vehicles[i], &tracks_[i]);
   JudgeCircles(tick, vehicles);
   JudgeAllHalted(tick, vehicles);
-  JudgeWays(tick, time_s, vehicles);
+  CheckPaths(tick, time_s, vehicles);
   JudgeStanding(tick, vehicles);
   JudgeBodies(tick, time_s, vehicles, around);
 }
@@ -157,8 +157,8 @@ VehicleId Invariants::MoreAtFault(const WorldEvent& contact) const {
 // other.
 void Invariants::JudgeContact(const WorldEvent& event) {
   const VehicleId at_fault = MoreAtFault(event);
-  Tell(Invariant::kContact, event.tick, at_fault,
-       at_fault == event.vehicle ? event.other : event.vehicle);
+  Report(Invariant::kContact, event.tick, at_fault,
+         at_fault == event.vehicle ? event.other : event.vehicle);
 }
 
 // Data is stale if the vehicle reports so, or if its last command is older than the world's
@@ -171,7 +171,7 @@ void Invariants::JudgeStaleness(Tick tick, const Observed& now, Track* track) {
       now.answered != kNoTick && TicksBetween(now.answered, tick) > watchdog_ticks_ + 1;
   if (!says_so && !is_so) {
     track->stale = false;
-    track->stale_told = false;
+    track->stale_reported = false;
     return;
   }
   const double speed = now.rim_m_s;
@@ -181,9 +181,9 @@ void Invariants::JudgeStaleness(Tick tick, const Observed& now, Track* track) {
     track->stale_limit_m_s = speed + track->acceleration_m_s2 * dt_s_;
     return;
   }
-  if (speed > track->stale_limit_m_s + kStandstill_m_s && !track->stale_told) {
-    track->stale_told = true;
-    Tell(Invariant::kStaleMotion, tick, now.vehicle);
+  if (speed > track->stale_limit_m_s + kStandstill_m_s && !track->stale_reported) {
+    track->stale_reported = true;
+    Report(Invariant::kStaleMotion, tick, now.vehicle);
   }
   track->stale_limit_m_s = std::max(0.0, track->stale_limit_m_s - track->deceleration_m_s2 * dt_s_);
 }
@@ -203,7 +203,7 @@ void Invariants::JudgeStanding(Tick tick, std::span<const Observed> vehicles) {
       track.stands_world = now.position_world;
       track.stood_ticks = 0;
     } else if (++track.stood_ticks == wait_ticks_ + 1) {
-      Tell(Invariant::kWaitBound, tick, now.vehicle, now.decision.peer);
+      Report(Invariant::kWaitBound, tick, now.vehicle, now.decision.peer);
     }
   }
 }
@@ -215,23 +215,23 @@ void Invariants::JudgeOrder(Tick tick, const Observed& now, Track* track) {
       Waits(now) && now.decision.rule == Rule::kGiveWay && Number(tick) >= keys_known_at_;
   const std::uint32_t peer = claims ? IndexOf(now.decision.peer) : kUnknown;
   if (peer == kUnknown) {
-    track->order_told = false;
+    track->order_reported = false;
     return;
   }
   const std::uint32_t oldest =
       Number(tick) > limits_.key_age_ticks ? Number(tick) - limits_.key_age_ticks : 1;
   for (std::uint32_t of_peer = Number(tick); of_peer >= oldest; --of_peer) {
-    const OrderKey& peers = tracks_[peer].keys[of_peer % kRememberedKeys];
+    const PriorityKey& peers = tracks_[peer].keys[of_peer % kRememberedKeys];
     for (std::uint32_t own = Number(tick); own + 1 >= Number(tick) && own >= 1; --own) {
-      if (ComesFirst(peers, tracks_[peer].vehicle, track->keys[own % kRememberedKeys],
-                     now.vehicle)) {
-        track->order_told = false;
+      if (HasPriority(peers, tracks_[peer].vehicle, track->keys[own % kRememberedKeys],
+                      now.vehicle)) {
+        track->order_reported = false;
         return;
       }
     }
   }
-  if (!track->order_told) Tell(Invariant::kOrder, tick, now.vehicle, now.decision.peer);
-  track->order_told = true;
+  if (!track->order_reported) Report(Invariant::kOrder, tick, now.vehicle, now.decision.peer);
+  track->order_reported = true;
 }
 
 // Judged by the truth of the tick it refers to; of one too long ago nothing is known.
@@ -241,19 +241,19 @@ void Invariants::JudgePose(Tick tick, const Observed& now, Track* track) {
   const double off_m = Norm(now.stated_position_world - place.position_world);
   const bool wrong = !(off_m <= kPoseSlack_m) &&
                      !(off_m <= kPoseSigmas * SigmaPosition(now.stated_covariance) + kPoseSlack_m);
-  if (wrong && !track->pose_told) Tell(Invariant::kPose, tick, now.vehicle);
-  track->pose_told = wrong;
+  if (wrong && !track->pose_reported) Report(Invariant::kPose, tick, now.vehicle);
+  track->pose_reported = wrong;
 }
 
 // Every vehicle waits for at most one other, so a walk along the edges ends or runs into a cycle.
 void Invariants::JudgeCircles(Tick tick, std::span<const Observed> vehicles) {
   for (Track& track : tracks_) track.walk = 0;
-  VehicleId found = kNobody;
-  VehicleId found_next = kNobody;
+  VehicleId found = kNoVehicle;
+  VehicleId found_next = kNoVehicle;
   for (std::uint32_t start = 0; start < vehicles.size(); ++start) {
     const std::uint32_t walk = start + 1;
     for (std::uint32_t at = start; at != kUnknown && tracks_[at].walk == 0;) {
-      if (!Waits(vehicles[at]) || vehicles[at].gives_way_to == kNobody) break;
+      if (!Waits(vehicles[at]) || vehicles[at].gives_way_to == kNoVehicle) break;
       tracks_[at].walk = walk;
       const std::uint32_t next = IndexOf(vehicles[at].gives_way_to);
       if (next != kUnknown && tracks_[next].walk == walk) {
@@ -263,9 +263,9 @@ void Invariants::JudgeCircles(Tick tick, std::span<const Observed> vehicles) {
       at = next;
     }
   }
-  circle_ticks_ = found == kNobody ? 0 : circle_ticks_ + 1;
+  circle_ticks_ = found == kNoVehicle ? 0 : circle_ticks_ + 1;
   if (circle_ticks_ == limits_.cycle_ticks + 1) {
-    Tell(Invariant::kWaitCycle, tick, found, found_next);
+    Report(Invariant::kWaitCycle, tick, found, found_next);
   }
 }
 
@@ -274,7 +274,7 @@ void Invariants::JudgeCircles(Tick tick, std::span<const Observed> vehicles) {
 void Invariants::JudgeAllHalted(Tick tick, std::span<const Observed> vehicles) {
   bool anyone = false;
   bool all = true;
-  VehicleId first = kNobody;
+  VehicleId first = kNoVehicle;
   for (const Observed& vehicle : vehicles) {
     if (!vehicle.present || !vehicle.lives) continue;
     if (vehicle.arrived) {
@@ -288,26 +288,26 @@ void Invariants::JudgeAllHalted(Tick tick, std::span<const Observed> vehicles) {
     anyone = true;
   }
   halted_ticks_ = anyone && all ? halted_ticks_ + 1 : 0;
-  if (halted_ticks_ == limits_.halted_ticks + 1) Tell(Invariant::kAllHalted, tick, first);
+  if (halted_ticks_ == limits_.halted_ticks + 1) Report(Invariant::kAllHalted, tick, first);
 }
 
-void Invariants::JudgeWays(Tick tick, double time_s, std::span<const Observed> vehicles) {
+void Invariants::CheckPaths(Tick tick, double time_s, std::span<const Observed> vehicles) {
   for (const std::uint32_t i : red_lights_.Observe(time_s, vehicles)) {
-    Tell(Invariant::kRedLight, tick, vehicles[i].vehicle);
+    Report(Invariant::kRedLight, tick, vehicles[i].vehicle);
   }
   for (const std::uint32_t i : progress_.Observe(tick, time_s, red_lights_.AnyStops(), vehicles)) {
     if (tracks_[i].shares_goal) continue;
-    Tell(Invariant::kProgress, tick, vehicles[i].vehicle, vehicles[i].decision.peer);
+    Report(Invariant::kProgress, tick, vehicles[i].vehicle, vehicles[i].decision.peer);
   }
 }
 
 void Invariants::JudgeBodies(Tick tick, double time_s, std::span<const Observed> vehicles,
                              const Surroundings& around) {
   for (const TooNear& near : clearance_.Observe(vehicles, around)) {
-    Tell(Invariant::kClearance, tick, vehicles[near.vehicle].vehicle, near.other);
+    Report(Invariant::kClearance, tick, vehicles[near.vehicle].vehicle, near.other);
   }
   for (const std::uint32_t i : claims_.Observe(tick, vehicles)) {
-    Tell(Invariant::kClaim, tick, vehicles[i].vehicle);
+    Report(Invariant::kClaim, tick, vehicles[i].vehicle);
   }
   for (std::size_t i = 0; i < vehicles.size(); ++i) {
     Track& track = tracks_[i];
@@ -315,7 +315,7 @@ void Invariants::JudgeBodies(Tick tick, double time_s, std::span<const Observed>
     track.due_s = 0;
     const Observed& now = vehicles[i];
     if (now.arrived || !now.present || !now.lives || !MustArrive(track)) continue;
-    Tell(Invariant::kDelay, tick, now.vehicle, now.decision.peer);
+    Report(Invariant::kDelay, tick, now.vehicle, now.decision.peer);
   }
 }
 
@@ -340,13 +340,13 @@ void Invariants::Finish(Tick tick, std::span<const Observed> vehicles) {
     anyone = anyone || vehicle.lives || vehicle.arrived;
     if (!MustArrive(tracks_[i]) || !vehicle.present || !vehicle.lives) continue;
     if (vehicle.arrived && Stands(vehicle)) continue;
-    Tell(Invariant::kArrival, tick, vehicle.vehicle, vehicle.decision.peer);
+    Report(Invariant::kArrival, tick, vehicle.vehicle, vehicle.decision.peer);
   }
   for (const auto& group : limits_.one_of) {
     if (IsAnyOf(group, vehicles, true) || !IsAnyOf(group, vehicles, false)) continue;
-    Tell(Invariant::kArrival, tick, group.front(), group.back());
+    Report(Invariant::kArrival, tick, group.front(), group.back());
   }
-  if (!anyone) Tell(Invariant::kArrival, tick, vehicles.front().vehicle);
+  if (!anyone) Report(Invariant::kArrival, tick, vehicles.front().vehicle);
 }
 
 }  // namespace giveway::sim

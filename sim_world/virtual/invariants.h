@@ -49,14 +49,14 @@ InvariantSet RequiredInvariants();
 struct Violation {
   Invariant invariant = Invariant::kContact;
   Tick tick = kNoTick;
-  VehicleId vehicle = kNobody;    // at fault, or the first concerned
-  VehicleId other = kNobody;      // the other one, where there is one
-  Rule rule = Rule::kNotRunning;  // by which the vehicle drove or stood, as it reported
+  VehicleId vehicle = kNoVehicle;  // at fault, or the first concerned
+  VehicleId other = kNoVehicle;    // the other one, where there is one
+  Rule rule = Rule::kNotRunning;   // by which the vehicle drove or stood, as it reported
 };
 
 // By when a vehicle must have arrived, since the start signal.
 struct DueTime {
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   double at_s = 0;
 };
 
@@ -116,7 +116,7 @@ class Invariants {
     Vec2 position_world;
   };
   struct Track {
-    VehicleId vehicle = kNobody;
+    VehicleId vehicle = kNoVehicle;
     double deceleration_m_s2 = 0;
     double acceleration_m_s2 = 0;
     bool has_goal = false;
@@ -125,7 +125,7 @@ class Invariants {
     bool stale = false;
     std::uint32_t stale_ticks = 0;
     double stale_limit_m_s = 0;  // how fast the faster wheel may still roll
-    bool stale_told = false;
+    bool stale_reported = false;
     bool on_route = false;  // for ever
     bool shares_goal =
         false;  // of one of kArrival's groups: it may stand where another has arrived
@@ -133,16 +133,16 @@ class Invariants {
     double due_s = 0;   // 0: never, or reported
     Vec2 stands_world;  // has not left it for so many ticks
     std::uint32_t stood_ticks = 0;
-    bool order_told = false;
-    std::array<OrderKey, kRememberedKeys> keys{};  // [tick % kRememberedKeys]
-    std::array<Place, kRememberedKeys> places{};   // the same
-    bool pose_told = false;
+    bool order_reported = false;
+    std::array<PriorityKey, kRememberedKeys> keys{};  // [tick % kRememberedKeys]
+    std::array<Place, kRememberedKeys> places{};      // the same
+    bool pose_reported = false;
     std::uint32_t walk = 0;  // scratch of the search for circles
   };
 
   static Track TrackOf(const VehicleOptions& options);
   void NoteGap(Tick tick);
-  void Tell(Invariant invariant, Tick tick, VehicleId vehicle, VehicleId other = kNobody);
+  void Report(Invariant invariant, Tick tick, VehicleId vehicle, VehicleId other = kNoVehicle);
   void JudgeContact(const WorldEvent& event);
   void JudgeStaleness(Tick tick, const Observed& now, Track* track);
   void JudgeStanding(Tick tick, std::span<const Observed> vehicles);
@@ -150,7 +150,7 @@ class Invariants {
   void JudgePose(Tick tick, const Observed& now, Track* track);
   void JudgeCircles(Tick tick, std::span<const Observed> vehicles);
   void JudgeAllHalted(Tick tick, std::span<const Observed> vehicles);
-  void JudgeWays(Tick tick, double time_s, std::span<const Observed> vehicles);
+  void CheckPaths(Tick tick, double time_s, std::span<const Observed> vehicles);
   void JudgeBodies(Tick tick, double time_s, std::span<const Observed> vehicles,
                    const Surroundings& around);
   bool MustArrive(const Track& track) const;

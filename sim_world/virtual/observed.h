@@ -11,7 +11,7 @@ namespace giveway::sim {
 inline constexpr double kStandstill_m_s = 0.01;
 
 struct Observed {
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   bool present = false;  // its body stands in the world
   bool lives = false;    // its process runs
   bool arrived = false;
@@ -21,8 +21,8 @@ struct Observed {
   double rim_m_s = 0;       // of the faster wheel: brakes act on wheels, not on the body's centre
   Tick answered = kNoTick;  // the scan its last command answers
   Decision decision;        // as last published, like what follows
-  VehicleId gives_way_to = kNobody;
-  OrderKey order;
+  VehicleId gives_way_to = kNoVehicle;
+  PriorityKey order;
   Tick stated = kNoTick;  // the tick of the pose in its last beacon
   Vec2 stated_position_world;
   PoseCovariance stated_covariance;

@@ -138,7 +138,7 @@ std::span<const std::uint32_t> Progress::Observe(Tick tick, double time_s, bool 
     const bool moves_on = !IsInCrowd(now) || MakesProgress(now, &track);
     track.excused = IsExcused(now, time_s, red);
     if (moves_on || track.excused) track.progress = tick;
-    if (track.progress == tick) track.told = false;
+    if (track.progress == tick) track.reported = false;
   }
   if (Number(tick) % second_ticks_ != 0) return wedged_;
   FindCrowds(vehicles);
@@ -148,8 +148,8 @@ std::span<const std::uint32_t> Progress::Observe(Tick tick, double time_s, bool 
     track.progress = std::max(track.progress, crowd_progress_[CrowdOf(i)]);
     const bool late = TicksBetween(track.progress, tick) > limit_ticks_;
     const bool wants = track.goal.set || track.route.count > 0;
-    if (late && wants && !track.told) wedged_.push_back(i);
-    track.told = late;
+    if (late && wants && !track.reported) wedged_.push_back(i);
+    track.reported = late;
   }
   return wedged_;
 }

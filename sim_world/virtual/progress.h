@@ -41,7 +41,7 @@ class Progress {
 
  private:
   struct Track {
-    VehicleId vehicle = kNobody;
+    VehicleId vehicle = kNoVehicle;
     Goal goal;  // not set: none
     Route route;
     double nearer_m = 0;  // what counts as nearer
@@ -49,7 +49,7 @@ class Progress {
     std::uint32_t waypoint = 0;  // the next one
     double nearest_m = 0;        // to it, or to the goal; so far on this leg
     Tick progress = kNoTick;     // the last
-    bool told = false;
+    bool reported = false;
     bool excused = false;
   };
 

@@ -31,7 +31,7 @@ double Part(std::uint64_t draw, int which) {
   return static_cast<double>((draw >> (21 * which)) & kMask) * 0x1p-21;
 }
 
-double Whole(std::uint64_t draw) { return static_cast<double>(draw >> 11) * 0x1p-53; }
+double UnitInterval(std::uint64_t draw) { return static_cast<double>(draw >> 11) * 0x1p-53; }
 
 double Power(double base, std::uint32_t exponent) {
   double result = 1;
@@ -84,10 +84,10 @@ Radio::Radio(const Scenario& scenario, const RadioSettings& settings, std::uint6
   }
 }
 
-void Radio::Say(std::size_t sender, Tick tick, const Beacon& beacon) {
-  Said& said = history_[sender * kept_ticks_ + Number(tick) % kept_ticks_];
-  said.tick = tick;
-  said.beacon = {.beacon = beacon,
+void Radio::Transmit(std::size_t sender, Tick tick, const Beacon& beacon) {
+  SentBeacon& sent = history_[sender * kept_ticks_ + Number(tick) % kept_ticks_];
+  sent.tick = tick;
+  sent.beacon = {.beacon = beacon,
                  .received = SteadyTime{0},
                  .crc_valid = true,
                  .name_valid = true,
@@ -113,7 +113,7 @@ void Radio::MarkBlackouts(double time_s) {
   for (const Blackout& blackout : settings_.blackouts) {
     if (time_s < blackout.from_s || time_s >= blackout.to_s) continue;
     for (std::size_t i = 0; i < count_; ++i) {
-      if (blackout.vehicle == kNobody || blackout.vehicle == ids_[i]) blacked_out_[i] = 1;
+      if (blackout.vehicle == kNoVehicle || blackout.vehicle == ids_[i]) blacked_out_[i] = 1;
     }
   }
 }
@@ -127,10 +127,10 @@ bool Radio::IsInReach(std::size_t receiver, std::size_t sender) const {
 }
 
 bool Radio::KnowsItIsFar(std::size_t receiver, std::size_t sender, Pair* pair) const {
-  if (!pair->told_far) return false;
+  if (!pair->stated_far) return false;
   const double listen_m = listen_m_[receiver];
-  if (SquaredDistance(receiver, sender) <= listen_m * listen_m) pair->told_far = false;
-  return pair->told_far;
+  if (SquaredDistance(receiver, sender) <= listen_m * listen_m) pair->stated_far = false;
+  return pair->stated_far;
 }
 
 std::uint64_t Radio::Draw(std::size_t receiver, std::size_t sender, std::uint32_t tick,
@@ -164,7 +164,8 @@ bool Radio::IsLinkBad(std::size_t receiver, std::size_t sender, Pair* pair) cons
     const double kept = Power(1 - burst.enter - burst.leave, now - pair->burst_tick);
     bad = pair->bad ? share + (1 - share) * kept : share - share * kept;
   }
-  if (pair->burst_tick != now) pair->bad = Whole(Draw(receiver, sender, now, kOfBurst)) < bad;
+  if (pair->burst_tick != now)
+    pair->bad = UnitInterval(Draw(receiver, sender, now, kOfBurst)) < bad;
   pair->burst_tick = now;
   return pair->bad;
 }
@@ -207,22 +208,22 @@ void Radio::HearSender(std::size_t receiver, std::size_t sender,
   for (std::uint32_t ticks = ruled ? most_ticks_ : longest_ticks_; ticks >= shortest_ticks_;
        --ticks) {
     if (ticks >= Number(now_)) continue;
-    const std::uint32_t said_tick = Number(now_) - ticks;
-    const Said& said = history_[sender * kept_ticks_ + said_tick % kept_ticks_];
-    if (said.tick != Tick{said_tick}) continue;
-    const std::uint64_t draw = draws_ ? Draw(receiver, sender, said_tick, 0) : 0;
+    const std::uint32_t sent_tick = Number(now_) - ticks;
+    const SentBeacon& sent = history_[sender * kept_ticks_ + sent_tick % kept_ticks_];
+    if (sent.tick != Tick{sent_tick}) continue;
+    const std::uint64_t draw = draws_ ? Draw(receiver, sender, sent_tick, 0) : 0;
     Fate fate = FateOf(draw);
     if (ruled && !SurvivesRules(receiver, sender, ticks, &fate)) continue;
     if (ticks != fate.due && !(fate.twice && ticks == fate.due + 1)) continue;
     if (draws_ && IsLost(receiver, sender, draw, &pair)) continue;
-    heard->push_back(said.beacon);
+    heard->push_back(sent.beacon);
     heard->back().received = heard_at_;
   }
   if (heard->size() == first) return;
   MarkHeard(receiver, sender, &pair);
   const Vec2 stated = heard->back().beacon.world_from_body.position_world;
   const double far_m = listen_m_[receiver] + kWellOutside_m;
-  pair.told_far = SquaredNorm(stated - positions_world_[receiver]) > far_m * far_m;
+  pair.stated_far = SquaredNorm(stated - positions_world_[receiver]) > far_m * far_m;
 }
 
 void Radio::MarkHeard(std::size_t receiver, std::size_t sender, Pair* pair) {
@@ -249,7 +250,7 @@ void Radio::Notice(std::size_t receiver, std::vector<QosEvent>* events) {
 }
 
 bool Radio::HasLeft(std::size_t receiver, std::size_t sender, const Pair& pair) const {
-  if (pair.told_far) return true;
+  if (pair.stated_far) return true;
   if (pair.heard_tick == Number(now_) || settings_.reach_m) return false;
   return places_[sender].on_air && !IsInReach(receiver, sender);
 }

@@ -33,7 +33,7 @@ class Radio {
   Radio(const Scenario& scenario, const RadioSettings& settings, std::uint64_t seed);
 
   // What a vehicle sent in answer to `tick`. At most one beacon per vehicle and tick.
-  void Say(std::size_t sender, Tick tick, const Beacon& beacon);
+  void Transmit(std::size_t sender, Tick tick, const Beacon& beacon);
   // Each vehicle's place at the tick now being received, time_s after the start signal.
   void BeginTick(Tick now, double time_s, std::span<const RadioPlace> places);
   // Appends what the vehicle receives in this tick: of one sender in order of arrival.
@@ -49,9 +49,9 @@ class Radio {
     bool bad = false;
     bool listed = false;  // in the receiver's list of those to expect beacons of
     bool deadline_missed = false;
-    bool told_far = false;  // heard from outside the listened-to radius, and still outside
+    bool stated_far = false;  // heard from outside the listened-to radius, and still outside
   };
-  struct Said {
+  struct SentBeacon {
     ReceivedBeacon beacon;
     Tick tick = kNoTick;
   };
@@ -94,7 +94,7 @@ class Radio {
   std::vector<double> reach_m_;   // by receiver: heard at all
   std::vector<double> listen_m_;  // by receiver: listened to
   double widest_reach_m_ = 0;
-  std::vector<Said> history_;                  // [sender * kept_ticks_ + tick % kept_ticks_]
+  std::vector<SentBeacon> history_;            // [sender * kept_ticks_ + tick % kept_ticks_]
   std::vector<Pair> pairs_;                    // [receiver * count_ + sender]
   std::vector<std::uint32_t> expected_;        // [receiver * count_ + …] senders
   std::vector<std::uint32_t> expected_count_;  // of each receiver

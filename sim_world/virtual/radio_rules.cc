@@ -17,8 +17,8 @@ RadioRules::RadioRules(std::span<const RadioRule> rules, std::span<const Vehicle
                        std::uint64_t seed, Nanoseconds tick_period)
     : seed_(seed), count_(ids.size()), tick_period_(tick_period) {
   const auto number_of = [&](VehicleId id) {
-    return id == kNobody ? kAnyone
-                         : static_cast<std::uint32_t>(std::ranges::find(ids, id) - ids.begin());
+    return id == kNoVehicle ? kAnyone
+                            : static_cast<std::uint32_t>(std::ranges::find(ids, id) - ids.begin());
   };
   const auto ticks = [&](double seconds) {
     return static_cast<std::int64_t>(TicksCovering(FromSeconds(seconds), tick_period));
@@ -77,18 +77,18 @@ bool RadioRules::IsCut(std::size_t hearer, std::size_t speaker) const {
 }
 
 RadioRules::Effect RadioRules::Of(std::size_t hearer, std::size_t speaker, std::uint32_t ticks_ago,
-                                  std::uint32_t said_tick) const {
+                                  std::uint32_t sent_tick) const {
   Effect effect;
   const std::uint64_t pair = hearer * count_ + speaker;
   for (const std::uint32_t i : changes_.live) {
     const Timed& timed = changes_.all[i];
     const RadioRule& rule = timed.rule;
     if (!IsOn(timed, now_ - ticks_ago) || !Fits(timed, hearer, speaker)) continue;
-    Random each(seed_ ^ rule.draws, pair << 32U | said_tick);
+    Random each(seed_ ^ rule.draws, pair << 32U | sent_tick);
     const bool lost = each.Uniform(0, 1) < rule.loss;
     const bool held_back = each.Uniform(0, 1) < rule.reorder;
     const bool twice = each.Uniform(0, 1) < rule.duplicate;
-    Random rows(seed_ ^ rule.draws ^ kOfRows, pair << 32U | said_tick / rule.burst_ticks);
+    Random rows(seed_ ^ rule.draws ^ kOfRows, pair << 32U | sent_tick / rule.burst_ticks);
     const bool in_row = rule.burst_loss > 0 && rows.Uniform(0, 1) < rule.burst_loss;
     effect.lost = effect.lost || lost || in_row;
     effect.twice = effect.twice || twice;

@@ -40,7 +40,7 @@ class RadioRules {
   };
   // Of a beacon that was sent that many ticks ago, in the tick of that number.
   Effect Of(std::size_t hearer, std::size_t speaker, std::uint32_t ticks_ago,
-            std::uint32_t said_tick) const;
+            std::uint32_t sent_tick) const;
 
  private:
   static constexpr std::uint32_t kAnyone = 0xffffffff;

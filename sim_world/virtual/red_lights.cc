@@ -5,7 +5,7 @@
 
 #include "services/types/math/math.h"
 #include "services/types/signal_plan.h"
-#include "sim_world/run/signals.h"
+#include "sim_world/run/traffic_lights.h"
 
 namespace giveway::sim {
 namespace {

@@ -37,7 +37,7 @@ class RedLights {
     bool turned_red = false;
   };
   struct Track {
-    VehicleId vehicle = kNobody;
+    VehicleId vehicle = kNoVehicle;
     double radius_m = 0;
     double deceleration_m_s2 = 0;
     bool seen = false;

@@ -40,7 +40,7 @@ RadioRule RadioRuleOf(const faults::Fault& fault) {
   const faults::Parameters with = faults::Filled(fault.kind, fault.parameters);
   RadioRule rule{.from_s = fault.at_s,
                  .to_s = fault.EndsAt_s(),
-                 .hearer = fault.target.what == What::kAll ? kNobody : fault.target.vehicle,
+                 .hearer = fault.target.what == What::kAll ? kNoVehicle : fault.target.vehicle,
                  .draws = DrawsOf(fault)};
   const double share = with.probability.value_or(0);
   const Nanoseconds late = FromSeconds(with.delay_s.value_or(0));
@@ -64,7 +64,7 @@ RadioRule RadioRuleOf(const faults::Fault& fault) {
       break;
     case Kind::kOneWayCut:
       rule.cut = true;
-      rule.speaker = with.from.value_or(kNobody);
+      rule.speaker = with.from.value_or(kNoVehicle);
       break;
     case Kind::kPartition:
     case Kind::kFlapping:

@@ -100,8 +100,8 @@ void VirtualFleet::Break(const ProcessFault& fault, Member* member) {
     member->share = fault.share;
     return;
   }
-  member->begins_anew = fault.kind == ProcessFaultKind::kRestart;
-  member->process = member->begins_anew ? Process::kGone : Process::kPaused;
+  member->restarts = fault.kind == ProcessFaultKind::kRestart;
+  member->process = member->restarts ? Process::kGone : Process::kPaused;
   member->back_at_tick = Number(run_.Now()) + std::max(1U, TicksCovering(FromSeconds(fault.for_s),
                                                                          scenario_.tick_period));
 }
@@ -130,11 +130,11 @@ bool VirtualFleet::IsThere(const VehicleOptions& options) {
 // roster; so is one that was paused until its body was removed.
 void VirtualFleet::BringBack(std::size_t index) {
   Member& member = members_[index];
-  member.begins_anew = member.begins_anew || run_.BodyOf(member.id) == nullptr;
+  member.restarts = member.restarts || run_.BodyOf(member.id) == nullptr;
   if (!IsThere(scenario_.vehicles[index])) return;
   member.process = Process::kRuns;
   member.back_at_tick = 0;
-  if (!member.begins_anew) return;
+  if (!member.restarts) return;
   const VehicleOptions& options = scenario_.vehicles[index];
   member.brain = std::make_unique<Vehicle>(options, ++last_boot_epoch_);
   RosterEntry& entry = member.placed.emplace();
@@ -145,7 +145,7 @@ void VirtualFleet::BringBack(std::size_t index) {
   member.slow_until_tick = 0;
 }
 
-void VirtualFleet::TellRadioThePlaces() {
+void VirtualFleet::UpdateRadioPositions() {
   std::size_t index = 0;
   for (const Truth& truth : run_.Truths()) {
     while (index < members_.size() && members_[index].id != truth.vehicle) ++index;
@@ -194,12 +194,12 @@ void VirtualFleet::Step(const RangeScan& scan, std::size_t index) {
   inputs_.beacons = heard_;
   inputs_.events = events_;
   inputs_.signals = run_.Signals();
-  member.said = member.brain->Step(inputs_);
+  member.outputs = member.brain->Step(inputs_);
   member.answered = true;
-  radio_.Say(index, scan.tick, member.said.beacon);
-  commands_.push_back(member.said.command);
-  commands_hash_ = Stir(commands_hash_, member.said.command.target.left_rad_s);
-  commands_hash_ = Stir(commands_hash_, member.said.command.target.right_rad_s);
+  radio_.Transmit(index, scan.tick, member.outputs.beacon);
+  commands_.push_back(member.outputs.command);
+  commands_hash_ = Stir(commands_hash_, member.outputs.command.target.left_rad_s);
+  commands_hash_ = Stir(commands_hash_, member.outputs.command.target.right_rad_s);
 }
 
 // A paused process takes nothing: the newest few beacons of each peer wait in its reader.
@@ -219,7 +219,7 @@ void VirtualFleet::Queue(std::size_t index) {
 bool VirtualFleet::Advance() {
   run_.Advance(commands_);
   CarryOutFaults();
-  TellRadioThePlaces();
+  UpdateRadioPositions();
   Think();
   return run_.State() != RunState::kEnded;
 }

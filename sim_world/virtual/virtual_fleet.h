@@ -31,7 +31,7 @@ class VirtualFleet {
   std::size_t Size() const { return members_.size(); }
   const Vehicle& Brain(std::size_t index) const { return *members_[index].brain; }
   // The vehicle's last outputs.
-  const Outputs& Said(std::size_t index) const { return members_[index].said; }
+  const Outputs& OutputsOf(std::size_t index) const { return members_[index].outputs; }
   // True if the vehicle's process answered this tick: it runs and is not paused.
   bool Answered(std::size_t index) const { return members_[index].answered; }
   // Every event of the run so far.
@@ -42,16 +42,16 @@ class VirtualFleet {
  private:
   enum class Process : std::uint8_t { kRuns, kPaused, kGone };
   struct Member {
-    VehicleId id = kNobody;
+    VehicleId id = kNoVehicle;
     std::unique_ptr<Vehicle> brain;
     Process process = Process::kRuns;
     std::uint32_t back_at_tick = 0;  // of a pause or restart; 0: never
-    bool begins_anew = false;
+    bool restarts = false;
     bool answered = false;
     std::uint32_t slow_since_tick = 0;
     std::uint32_t slow_until_tick = 0;  // not any more
     double share = 1;                   // of ticks that it answers while it is slow
-    Outputs said;
+    Outputs outputs;
     std::optional<RosterEntry> placed;   // what a new process is sent before its first scan
     std::vector<ReceivedBeacon> queued;  // in the reader of a paused process
     std::optional<PoseFix> fix;          // in its reader
@@ -68,7 +68,7 @@ class VirtualFleet {
   bool Skips(const Member& member) const;
   void Break(const ProcessFault& fault, Member* member);
   void BringBack(std::size_t index);
-  void TellRadioThePlaces();
+  void UpdateRadioPositions();
   void Think();
   void Step(const RangeScan& scan, std::size_t index);
   void Queue(std::size_t index);

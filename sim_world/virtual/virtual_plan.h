@@ -21,8 +21,8 @@ struct BurstLoss {
 
 // No peer receives the vehicle and it receives none.
 struct Blackout {
-  VehicleId vehicle = kNobody;  // kNobody: every vehicle
-  double from_s = 0;            // since the start signal
+  VehicleId vehicle = kNoVehicle;  // kNoVehicle: every vehicle
+  double from_s = 0;               // since the start signal
   double to_s = 0;
 };
 
@@ -30,12 +30,12 @@ struct Blackout {
 // beacon was sent, a cut on when it would be received. Rules that are active at once draw
 // separately, and their delays add up.
 struct RadioRule {
-  double from_s = 0;              // since the start signal
-  double to_s = 0;                // not any more
-  VehicleId hearer = kNobody;     // kNobody: every vehicle
-  VehicleId speaker = kNobody;    // kNobody: every vehicle
-  bool cut = false;               // nothing of the speaker is received
-  bool both_ways = false;         // of a cut: and the speaker does not receive the hearer
+  double from_s = 0;               // since the start signal
+  double to_s = 0;                 // not any more
+  VehicleId hearer = kNoVehicle;   // kNoVehicle: every vehicle
+  VehicleId speaker = kNoVehicle;  // kNoVehicle: every vehicle
+  bool cut = false;                // nothing of the speaker is received
+  bool both_ways = false;          // of a cut: and the speaker does not receive the hearer
   double period_s = 0;            // of a cut: on for the first half of each period; 0: all the time
   double loss = 0;                // share lost, each by itself
   double burst_loss = 0;          // share lost in bursts
@@ -75,7 +75,7 @@ enum class ProcessFaultKind : std::uint8_t {
 
 struct ProcessFault {
   ProcessFaultKind kind = ProcessFaultKind::kCrash;
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   double at_s = 0;     // since the start signal
   double for_s = 0.5;  // not of a crash; the world treats a second of silence as a death
   double share = 1;    // of kSlow

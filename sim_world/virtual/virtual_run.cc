@@ -74,7 +74,7 @@ void ObserveFleet(const VirtualFleet& fleet, std::vector<Observed>* observed) {
     while (index < observed->size() && (*observed)[index].vehicle != truth.vehicle) ++index;
     if (index == observed->size()) return;
     Observed& now = (*observed)[index];
-    const Outputs& said = fleet.Said(index);
+    const Outputs& said = fleet.OutputsOf(index);
     now.present = truth.present;
     now.lives = fleet.Answered(index);
     now.arrived = truth.arrived;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Which orders a service accepts: none by default; with a key only those sealed with it; with --admin
 # and no key all. Prints a line a row, "ok" or "FAILED".
-source "$(dirname "${BASH_SOURCE[0]}")/../system/members.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/members.sh"
 unset GIVEWAY_QOS GIVEWAY_ADMIN GIVEWAY_ADMIN_KEY
 take_domain
 cd "$SCRATCH" || exit 2

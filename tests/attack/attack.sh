@@ -16,7 +16,7 @@ if [[ -z ${OWN_NETWORK:-} ]]; then
   OWN_NETWORK=1 exec unshare -nm bash -c \
     'mount -t tmpfs none /run && ip link set lo up && exec bash "$0" "$@"' "$0" "$@"
 fi
-source "$(dirname "${BASH_SOURCE[0]}")/../system/members.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/members.sh"
 unset GIVEWAY_QOS GIVEWAY_INTERFACE GIVEWAY_DOMAIN
 ATTACKER=${GIVEWAY_ATTACKER:-$BIN/attacker}
 # This namespace has no other fleet, but fleets outside share the folder of the domain locks.

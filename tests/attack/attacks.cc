@@ -292,7 +292,7 @@ void Tokens(const Target& target, UdpSender* sender) {
   }
 }
 
-void SpoilNumber(PacketBytes* packet, std::size_t at, std::mt19937_64* random) {
+void CorruptNumber(PacketBytes* packet, std::size_t at, std::mt19937_64* random) {
   constexpr std::uint8_t kExtremes[] = {0, 1, 0x7f, 0x80, 0xff};
   const std::size_t size = std::size_t{1} << ((*random)() % 4);
   for (std::size_t i = 0; i < size && at + i < packet->size(); ++i) {
@@ -301,7 +301,7 @@ void SpoilNumber(PacketBytes* packet, std::size_t at, std::mt19937_64* random) {
 }
 
 // A captured packet with a few places changed: its bits, its numbers, its end, its kinds.
-PacketBytes Spoilt(PacketBytes packet, const Target& target, std::mt19937_64* random) {
+PacketBytes Corrupted(PacketBytes packet, const Target& target, std::mt19937_64* random) {
   const auto place = [&](std::size_t from) {
     return from + (*random)() % std::max<std::size_t>(packet.size() - from, 1);
   };
@@ -315,7 +315,7 @@ PacketBytes Spoilt(PacketBytes packet, const Target& target, std::mt19937_64* ra
         packet[place(kRtpsHeader)] = static_cast<std::uint8_t>((*random)());
         break;
       case 2:
-        SpoilNumber(&packet, place(kRtpsHeader), random);
+        CorruptNumber(&packet, place(kRtpsHeader), random);
         break;
       case 3:
         packet.resize(place(kRtpsHeader));
@@ -337,7 +337,7 @@ void Fuzz(const Target& target, UdpSender* sender) {
   std::mt19937_64 random(target.seed);
   while (!target.captured.empty() && !IsOver(begun, target)) {
     const Packet& model = target.captured[random() % target.captured.size()];
-    sender->Send(Spoilt(model.bytes, target, &random), model.to, model.port);
+    sender->Send(Corrupted(model.bytes, target, &random), model.to, model.port);
   }
 }
 
@@ -356,7 +356,7 @@ PacketBytes Malformed(const Packet& model, std::uint32_t turn, const Target& tar
   PacketBytes packet = RtpsPacket(prefix).Statistics().Bytes();
   switch (turn % 5) {
     case 0:
-      return Spoilt(model.bytes, target, random);
+      return Corrupted(model.bytes, target, random);
     case 1:
       packet.resize(packet.size() + 4);
       return packet;

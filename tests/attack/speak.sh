@@ -3,7 +3,7 @@
 # is one attack on the same fleet of four, on loopback. After each of them every process of the fleet
 # runs, every vehicle drives, and nothing that the intruder wanted has happened.
 # Prints a line a row, "ok" or "FAILED".
-source "$(dirname "${BASH_SOURCE[0]}")/../system/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 unset GIVEWAY_QOS GIVEWAY_INTERFACE GIVEWAY_DOMAIN GIVEWAY_ADMIN GIVEWAY_ADMIN_KEY
 ATTACKER=${GIVEWAY_SPEAK_ATTACKER:-$REPOSITORY/build/release/tests/attack/speak/speak_attacker}
 [[ -x $ATTACKER ]] || {

@@ -44,7 +44,7 @@ void PacketFilterCost(benchmark::State& state) {
   for (auto _ : state) {
     now += std::chrono::milliseconds(50);
     for (const PacketBytes& packet : packets) {
-      passed += filter.Judge(packet, kSource, now).drop == PacketDrop::kNone ? 1U : 0U;
+      passed += filter.Check(packet, kSource, now).drop == PacketDrop::kNone ? 1U : 0U;
     }
   }
   const double judged =

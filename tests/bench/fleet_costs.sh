@@ -2,7 +2,7 @@
 # What a fleet of N vehicles costs, measured: the figures that fleetctl plan uses.
 # Every fleet drives parallel lanes in a network namespace of its own, where all hear all.
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/../system/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 
 usage() {
   cat <<'TEXT'

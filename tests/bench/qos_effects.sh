@@ -106,4 +106,4 @@ row() {
   [[ -x build/release/bin/fleetctl ]] || bash services/run.sh --setup-only
   printf '%-58s %-22s %10s %10s  %s\n' "value -> another" figure shipped other verdict
 }
-source tests/bench/qos_effects_rows.sh
+source tests/support/qos_effects_rows.sh

@@ -87,7 +87,7 @@ void VirtualRadio(benchmark::State& bench) {
       benchmark::DoNotOptimize(heard.data());
       beacon.world_from_body.position_world = Place(i);
       beacon.seq = tick;
-      radio.Say(i, Tick{tick}, beacon);
+      radio.Transmit(i, Tick{tick}, beacon);
     }
   }
   CountVehicleTicks(bench);

@@ -10,7 +10,7 @@
 #
 # GIVEWAY_SUITE=bookworm puts the containers on Debian 12 with Fast DDS 2.9.1, without discovery
 # servers: those of compose.yaml have no number, and 2.9.1 starts none without.
-source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/engine.sh"
 HERE=$GIVEWAY_ROOT/tests/containers
 
 # case_of NAME SCRIPT ARGUMENTS...
@@ -42,7 +42,7 @@ debian13() {
   local scripts=(crossing:intersection_yield crossing:peer_dies crossing:four_way rejoin
     world_restart interrupt health qos)
   [[ ${GIVEWAY_FULL:-} != true ]] || scripts+=(repeat:intersection_yield repeat:intersection_equal
-    bad_input impaired eyes apply stopwatch why doctor tune replay kill_drill)
+    bad_input impaired observers apply stopwatch why doctor tune replay kill_drill)
   export GIVEWAY_SUITE=trixie
   SUITE=$GIVEWAY_SUITE
   base_image "$SUITE"
@@ -64,10 +64,10 @@ containers() {
   for discovery in "${discoveries[@]}"; do
     [[ $discovery != multicast ]] || case_of "a fleet as the README starts it" patrol
     case_of "crossings of 2 and 8, $discovery" crossing "$discovery"
-    case_of "drills, $discovery" drills "$discovery"
+    case_of "drills, $discovery" fault_drills "$discovery"
     case_of "eight cross while things happen, $discovery" rough_crossing "$discovery"
   done
-  case_of "stops, and $kills kill -9 restarts" stops "$kills"
+  case_of "stops, and $kills kill -9 restarts" shutdown "$kills"
   case_of "bad input" bad_input
 }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Misconfigured deployments: each container says what is wrong and what to do, /readyz says why it waits, and
 # the restart policy does not spin.
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/composed_fleet.sh"
 engine_up
 use multicast
 docker network create giveway-bad --subnet 172.30.54.0/24 >/dev/null

@@ -3,7 +3,7 @@
 # discovery servers with multicast blocked.
 #
 #   bash tests/containers/crossing.sh multicast|servers
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/composed_fleet.sh"
 [[ ${1:-} == multicast || ${1:-} == servers ]] || die "say multicast or servers"
 engine_up
 DISCOVERY=$1

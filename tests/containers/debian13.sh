@@ -6,7 +6,7 @@
 #                                                 programs as they are installed; a line each
 #   bash tests/containers/debian13.sh --exposure  known vulnerabilities against its packages' changelogs
 GIVEWAY_SUITE=trixie # whatever the other containers stand on
-source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/engine.sh"
 [[ $# -gt 0 ]] || die "name stages of tests/run.sh, or --system and scripts of tests/system, or --exposure"
 mapfile -t packages < <(container_packages)
 install_packages "${packages[@]}"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The built images: size above their base, user, read-only root, no capabilities, labels, health check, stop
 # signal; and their files are found where they are installed.
-source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/engine.sh"
 engine_up
 trap engine_down EXIT
 BASE=debian:$SUITE-slim

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # A mixed fleet: vehicles built here (on Debian 12 Fast DDS 2.9.1) and of the image (3.1.2) on one loopback,
 # first under the world of the one, then of the other. The world's verdict counts.
-source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/engine.sh"
 BIN=${GIVEWAY_BIN_DIR:-$GIVEWAY_ROOT/build/release/bin}
 SCRATCH=$(mktemp -d)
 CONTAINERS=()

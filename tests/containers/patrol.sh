@@ -6,7 +6,7 @@
 #   bash tests/containers/patrol.sh [MINUTES [VEHICLES]]   default: each of the three once, at once
 #
 # GIVEWAY_NO_BUILD=1 takes the images as they are, GIVEWAY_KEEP_SAMPLES=FILE keeps what was looked at.
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/composed_fleet.sh"
 MINUTES=${1:-0}
 VEHICLES=${2:-4}
 LIMIT_S=30 # to drive again, including the time to give way at a crossing

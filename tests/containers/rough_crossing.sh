@@ -5,7 +5,7 @@
 # the waits allow for a busy machine.
 #
 #   bash tests/containers/rough_crossing.sh multicast|servers
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/composed_fleet.sh"
 [[ ${1:-} == multicast || ${1:-} == servers ]] || die "say multicast or servers"
 engine_up
 use "$1"

@@ -11,7 +11,7 @@ struct packed {
 };
 
 /* This program runs on little-endian machines alone, as the check sum packs. */
-static void Whole(struct packed* to, uint32_t number) {
+static void PutUint(struct packed* to, uint32_t number) {
   memcpy(to->bytes + to->size, &number, sizeof number);
   to->size += (int)sizeof number;
 }
@@ -35,9 +35,9 @@ uint32_t BeaconCrc(const giveway_wire_Beacon* b) {
   const uint32_t last[] = {(uint32_t)b->mode, (uint32_t)b->rule,     b->gives_way_to,
                            b->blocked_by,     b->order_waited_ticks, b->order_speed_bucket,
                            b->order_vehicle};
-  for (size_t i = 0; i < sizeof first / sizeof *first; ++i) Whole(&all, first[i]);
+  for (size_t i = 0; i < sizeof first / sizeof *first; ++i) PutUint(&all, first[i]);
   for (size_t i = 0; i < sizeof reals / sizeof *reals; ++i) Real(&all, reals[i]);
-  for (size_t i = 0; i < sizeof last / sizeof *last; ++i) Whole(&all, last[i]);
+  for (size_t i = 0; i < sizeof last / sizeof *last; ++i) PutUint(&all, last[i]);
   uint32_t crc = 0xffffffffU;
   for (int i = 0; i < all.size; ++i) {
     crc ^= all.bytes[i];
@@ -46,7 +46,7 @@ uint32_t BeaconCrc(const giveway_wire_Beacon* b) {
   return ~crc;
 }
 
-bool ComesFirst(struct order_key a, uint32_t id_a, struct order_key b, uint32_t id_b) {
+bool HasPriority(struct priority_key a, uint32_t id_a, struct priority_key b, uint32_t id_b) {
   if (a.waited_ticks != b.waited_ticks) return a.waited_ticks > b.waited_ticks;
   if (a.speed_bucket != b.speed_bucket) return a.speed_bucket > b.speed_bucket;
   if (a.vehicle != b.vehicle) return a.vehicle < b.vehicle;
@@ -55,30 +55,30 @@ bool ComesFirst(struct order_key a, uint32_t id_a, struct order_key b, uint32_t 
   return b.vehicle == id_b || id_a < id_b;
 }
 
-static double Length(struct way way) {
-  return hypot(way.to.x_m - way.from.x_m, way.to.y_m - way.from.y_m);
+static double Length(struct path path) {
+  return hypot(path.to.x_m - path.from.x_m, path.to.y_m - path.from.y_m);
 }
 
-static struct point At(struct way way, double along_m) {
-  const double length_m = Length(way);
+static struct point At(struct path path, double along_m) {
+  const double length_m = Length(path);
   const double share = length_m > 0 ? along_m / length_m : 0;
-  return (struct point){way.from.x_m + share * (way.to.x_m - way.from.x_m),
-                        way.from.y_m + share * (way.to.y_m - way.from.y_m)};
+  return (struct point){path.from.x_m + share * (path.to.x_m - path.from.x_m),
+                        path.from.y_m + share * (path.to.y_m - path.from.y_m)};
 }
 
-static double DistanceTo(struct way way, struct point point) {
-  const double length_m = Length(way);
+static double DistanceTo(struct path path, struct point point) {
+  const double length_m = Length(path);
   double along_m = 0;
   if (length_m > 0) {
-    along_m = ((point.x_m - way.from.x_m) * (way.to.x_m - way.from.x_m) +
-               (point.y_m - way.from.y_m) * (way.to.y_m - way.from.y_m)) /
+    along_m = ((point.x_m - path.from.x_m) * (path.to.x_m - path.from.x_m) +
+               (point.y_m - path.from.y_m) * (path.to.y_m - path.from.y_m)) /
               length_m;
   }
-  const struct point nearest = At(way, fmax(0, fmin(length_m, along_m)));
+  const struct point nearest = At(path, fmax(0, fmin(length_m, along_m)));
   return hypot(point.x_m - nearest.x_m, point.y_m - nearest.y_m);
 }
 
-struct stretch CrossingOf(struct way own, struct way other, double reach_m) {
+struct stretch CrossingOf(struct path own, struct path other, double reach_m) {
   const double kStep_m = 0.02;
   struct stretch crossing = {false, 0, 0};
   for (double along_m = 0; along_m <= Length(own); along_m += kStep_m) {

@@ -11,7 +11,7 @@ struct point {
   double x_m, y_m;
 };
 
-struct way { /* straight */
+struct path { /* straight */
   struct point from, to;
 };
 
@@ -20,7 +20,7 @@ struct stretch { /* of the own path, from its start */
   double begin_m, end_m;
 };
 
-struct order_key {
+struct priority_key {
   uint32_t waited_ticks, speed_bucket, vehicle;
 };
 
@@ -28,7 +28,7 @@ struct order_key {
 uint32_t BeaconCrc(const giveway_wire_Beacon* beacon);
 
 /* True if `a`, which vehicle id_a acts by, goes before `b`. */
-bool ComesFirst(struct order_key a, uint32_t id_a, struct order_key b, uint32_t id_b);
+bool HasPriority(struct priority_key a, uint32_t id_a, struct priority_key b, uint32_t id_b);
 
 /* Where the own path is nearer than reach_m to any point of the other one. */
-struct stretch CrossingOf(struct way own, struct way other, double reach_m);
+struct stretch CrossingOf(struct path own, struct path other, double reach_m);

@@ -206,10 +206,10 @@ static double StoppingDistance(void) {
   return speed * 3 * kTick_s + speed * speed / (2 * kDeceleration_m_s2) + 0.05;
 }
 
-static struct order_key OwnKey(void) {
+static struct priority_key OwnKey(void) {
   const double steps = me.cruise_m_s / 0.05;
   const double bucket = Has("floors-bucket") ? floor(steps - 1e-9) : floor(steps + 0.5);
-  return (struct order_key){0, (uint32_t)bucket, me.id};
+  return (struct priority_key){0, (uint32_t)bucket, me.id};
 }
 
 /* A peer that will not move by itself stays where it is, and right of way does not apply to it. */
@@ -227,9 +227,9 @@ static double MayGo(struct peer* peer) {
   const Beacon* beacon = &peer->beacon;
   if (peer->id == 0 || beacon->mode == giveway_wire_MODE_LEAVING) return kFar_m;
   const bool fresh = Now() - peer->received_ns <= kBeaconAgeLimit_ns;
-  const struct way own = {{me.x_m, me.y_m}, me.goal};
-  const struct way theirs = {{beacon->world_from_body.x_m, beacon->world_from_body.y_m},
-                             {beacon->toward_x_m, beacon->toward_y_m}};
+  const struct path own = {{me.x_m, me.y_m}, me.goal};
+  const struct path theirs = {{beacon->world_from_body.x_m, beacon->world_from_body.y_m},
+                              {beacon->toward_x_m, beacon->toward_y_m}};
   const double reach_m = kBodyRadius_m + beacon->body_radius_m + 0.2 + 2 * Sigma(beacon);
   const struct stretch crossing = CrossingOf(own, theirs, reach_m);
   if (!crossing.exists) {
@@ -238,14 +238,14 @@ static double MayGo(struct peer* peer) {
   }
   const double before_m = crossing.begin_m - StoppingDistance();
   const bool can_stop = crossing.begin_m > 0 && before_m > -0.1;
-  const bool goes_first =
-      ComesFirst((struct order_key){beacon->order_waited_ticks, beacon->order_speed_bucket,
-                                    beacon->order_vehicle},
-                 peer->id, OwnKey(), me.id);
+  const bool has_priority =
+      HasPriority((struct priority_key){beacon->order_waited_ticks, beacon->order_speed_bucket,
+                                        beacon->order_vehicle},
+                  peer->id, OwnKey(), me.id);
   if (Has("never-grants"))
-    return can_stop && !StaysPut(beacon) && goes_first ? crossing.begin_m : kFar_m;
+    return can_stop && !StaysPut(beacon) && has_priority ? crossing.begin_m : kFar_m;
   const bool grants = fresh && (beacon->gives_way_to == me.id || StaysPut(beacon));
-  if (goes_first && can_stop && fresh) {
+  if (has_priority && can_stop && fresh) {
     me.gives_way_to = peer->id;
     me.rule = giveway_wire_RULE_GIVE_WAY;
     peer->stands_back = true;
@@ -317,7 +317,7 @@ static void SendCommand(double speed) {
 static void SendBeacon(void) {
   const double sigma_m = 0.01 + 0.01 * me.gone_m;
   const double sigma_rad = 0.01;
-  const struct order_key key = OwnKey();
+  const struct priority_key key = OwnKey();
   const bool stays = me.arrived || me.rule == giveway_wire_RULE_NOT_RUNNING;
   Beacon beacon = {.vehicle = me.id,
                    .boot_epoch = me.boot_epoch,

@@ -103,7 +103,7 @@ std::string Describe(const std::optional<int>& status) {
   return "ends with exit code " + std::to_string(WEXITSTATUS(*status));
 }
 
-void TellFailure(const Options& options, const Trace& trace, const std::optional<int>& status) {
+void ReportFailure(const Options& options, const Trace& trace, const std::optional<int>& status) {
   const char* const target = options.target.c_str();
   if (!options.files.empty()) {
     const std::size_t at = std::min<std::size_t>(trace.done, options.files.size() - 1);
@@ -136,7 +136,7 @@ int Run(const Options& options) {
   }
   const std::optional<int> status = Await(child, *trace);
   if (status != 0) {
-    TellFailure(options, *trace, status);
+    ReportFailure(options, *trace, status);
     return 1;
   }
   const double seconds = std::chrono::duration<double>(Clock::now() - began).count();

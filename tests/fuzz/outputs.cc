@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSlack = 1e-9;  // relative: rounding of a conversion to a twist and back
 
-void CheckCaps(const WheelSpeeds& target, const VehicleProfile& profile) {
+void CheckCaps(const WheelSpeeds& target, const RobotModel& profile) {
   const Twist twist = TwistFromWheels(profile.drive, target);
   GIVEWAY_CHECK(std::abs(twist.forward_m_s) <= profile.max_speed_m_s * (1 + kSlack),
                 twist.forward_m_s, profile.max_speed_m_s);

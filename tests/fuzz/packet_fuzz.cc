@@ -58,7 +58,7 @@ std::vector<PacketDrop> JudgeAll(Bytes bytes) {
     const std::vector<std::uint8_t> packet(bytes.begin() + 2,
                                            bytes.begin() + 2 + static_cast<std::ptrdiff_t>(length));
     bytes = bytes.subspan(2 + length);
-    const link::PacketVerdict verdict = filter.Judge(packet, kSource, now += kApart);
+    const link::PacketVerdict verdict = filter.Check(packet, kSource, now += kApart);
     drops.push_back(verdict.drop);
     if (verdict.drop != PacketDrop::kNone) continue;
     GIVEWAY_CHECK(verdict.bytes <= packet.size());

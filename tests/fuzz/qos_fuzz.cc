@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "services/qos/check.h"
+#include "services/qos/profile_check.h"
 #include "services/types/check.h"
 #include "tests/fuzz/target.h"
 

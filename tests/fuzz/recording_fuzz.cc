@@ -38,7 +38,7 @@ Input Resealed(const Input& file) {
 std::string Replayed(const Input& file) {
   std::istringstream stream(file);
   const ReplayedFile outcome = fleetctl::Replay(&stream);
-  GIVEWAY_CHECK(outcome.vehicle != kNobody || !outcome.finding.empty());
+  GIVEWAY_CHECK(outcome.vehicle != kNoVehicle || !outcome.finding.empty());
   GIVEWAY_CHECK(outcome.complete || outcome.difference || !outcome.finding.empty() ||
                 outcome.steps > 0);
   return ToJson({outcome});

@@ -22,7 +22,7 @@ void CheckDrives(const Scenario& scenario) {
   for (int tick = 0; tick < kTicks && running; ++tick) {
     running = fleet.Advance();
     for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
-      CheckOutputs(fleet.Said(i), scenario.vehicles[i]);
+      CheckOutputs(fleet.OutputsOf(i), scenario.vehicles[i]);
       GIVEWAY_CHECK(fleet.Brain(i).State().counters.beacons.Rejected() == 0, i);
     }
   }

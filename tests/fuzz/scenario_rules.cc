@@ -34,7 +34,7 @@ void CheckShape(BodyShape shape, Vec2 box_half_m, double radius_m) {
   GIVEWAY_CHECK(Within(radius_m - Norm(box_half_m), -1e-9, 1e-9), radius_m);
 }
 
-void CheckProfile(const VehicleProfile& p) {
+void CheckProfile(const RobotModel& p) {
   CheckShape(p.shape, p.box_half_m, p.body_radius_m);
   GIVEWAY_CHECK(p.body_radius_m >= 0.05, p.body_radius_m);
   GIVEWAY_CHECK(Within(p.wheel_slip, 0, 0.5) && Within(p.encoder_noise, 0, 0.5), p.wheel_slip);
@@ -74,7 +74,7 @@ void CheckVehicle(const VehicleOptions& v, const Scenario& scenario) {
 // Sorted by id, each once, no two discs overlapping.
 void CheckFleet(const std::vector<VehicleOptions>& vehicles) {
   for (std::size_t i = 0; i < vehicles.size(); ++i) {
-    GIVEWAY_CHECK(vehicles[i].id != kNobody);
+    GIVEWAY_CHECK(vehicles[i].id != kNoVehicle);
     GIVEWAY_CHECK(i == 0 || vehicles[i - 1].id < vehicles[i].id, Number(vehicles[i].id));
     for (std::size_t j = 0; j < i; ++j) {
       if (vehicles[i].profile.shape != BodyShape::kDisc) continue;
@@ -195,9 +195,9 @@ void CheckRule(const ImpairmentRule& rule, const Scenario& scenario) {
   GIVEWAY_CHECK(Within(from_s, 0, 2'592'000) && Within(rule.to_s.value_or(1), 0, 2'592'000));
   GIVEWAY_CHECK(!rule.to_s || from_s < *rule.to_s, from_s);
   const bool one = rule.from == ImpairedSender::kOneVehicle;
-  GIVEWAY_CHECK(one == (rule.from_vehicle != kNobody));
+  GIVEWAY_CHECK(one == (rule.from_vehicle != kNoVehicle));
   if (one) CheckIds({rule.from_vehicle}, scenario);
-  if (rule.to_vehicle != kNobody) CheckIds({rule.to_vehicle}, scenario);
+  if (rule.to_vehicle != kNoVehicle) CheckIds({rule.to_vehicle}, scenario);
 }
 
 }  // namespace

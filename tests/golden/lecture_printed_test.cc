@@ -50,9 +50,9 @@ bool IsDead(std::uint32_t vehicle, const sim::VirtualFleet& fleet) {
 std::set<Pair> GivingWay(const sim::VirtualFleet& fleet) {
   std::set<Pair> pairs;
   for (std::size_t i = 0; i < fleet.Size(); ++i) {
-    const Decision& decision = fleet.Said(i).command.decision;
+    const Decision& decision = fleet.OutputsOf(i).command.decision;
     if (!fleet.Answered(i) || decision.rule != Rule::kGiveWay) continue;
-    pairs.insert({Number(fleet.Said(i).command.vehicle), Number(decision.peer)});
+    pairs.insert({Number(fleet.OutputsOf(i).command.vehicle), Number(decision.peer)});
   }
   return pairs;
 }
@@ -68,8 +68,9 @@ void WatchMotion(const sim::VirtualFleet& fleet, Story* story) {
 
 void WatchDecisions(const sim::VirtualFleet& fleet, Story* story) {
   for (std::size_t i = 0; i < fleet.Size(); ++i) {
-    const MotorCommand& command = fleet.Said(i).command;
-    if (command.decision.rule == Rule::kDeaf) story->deaf.insert(Number(command.vehicle));
+    const MotorCommand& command = fleet.OutputsOf(i).command;
+    if (command.decision.rule == Rule::kUnidentifiedMotion)
+      story->deaf.insert(Number(command.vehicle));
   }
   const std::set<Pair> now = GivingWay(fleet);
   for (const auto& [who, to_whom] : now) {
@@ -87,7 +88,7 @@ void WatchEvents(const sim::VirtualFleet& fleet, Story* story) {
   }
 }
 
-Story Tell(const Scenario& scenario) {
+Story RunStory(const Scenario& scenario) {
   sim::VirtualFleet fleet(scenario);
   Story story;
   for (bool goes_on = true; goes_on && story.contacts == 0;) {
@@ -212,14 +213,14 @@ const Flaw kFlaws[] = {
 class PrintedFlaw : public testing::TestWithParam<Flaw> {};
 
 TEST_P(PrintedFlaw, IsShownAsPrinted) {
-  const Story story = Tell(GetParam().scenario(GetParam().printed));
+  const Story story = RunStory(GetParam().scenario(GetParam().printed));
   EXPECT_TRUE(GetParam().shows(story)) << testing::PrintToString(story);
 }
 
 TEST_P(PrintedFlaw, IsSettledByTheOtherBehaviours) {
   for (const Behaviour behaviour : {Behaviour::kLectureYield, Behaviour::kCooperative}) {
     SCOPED_TRACE(Name(behaviour));
-    const Story story = Tell(GetParam().scenario(behaviour));
+    const Story story = RunStory(GetParam().scenario(behaviour));
     EXPECT_FALSE(GetParam().shows(story)) << testing::PrintToString(story);
     EXPECT_EQ(story.contacts, 0U);
     EXPECT_EQ(story.arrived, GetParam().arrive) << testing::PrintToString(story);

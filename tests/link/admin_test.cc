@@ -13,18 +13,18 @@ namespace {
 
 using std::chrono::milliseconds;
 
-AdminOrder OrderTo(VehicleId vehicle, std::uint64_t number) {
+AdminRequest OrderTo(VehicleId vehicle, std::uint64_t number) {
   return {.vehicle = vehicle,
           .number = number,
-          .kind = OrderKind::kApply,
+          .kind = AdminRequestKind::kApply,
           .profiles = {"mine.xml", "<dds>" + std::string(40'000, ' ') + "</dds>"}};
 }
 
 // What has come once anything has.
-std::vector<AdminOrder> OrdersOf(Beaconing& vehicle) {
-  std::vector<AdminOrder> orders;
+std::vector<AdminRequest> OrdersOf(Beaconing& vehicle) {
+  std::vector<AdminRequest> orders;
   EXPECT_TRUE(Eventually([&] {
-    orders = vehicle.Link().TakeOrders();
+    orders = vehicle.Link().TakeAdminRequests();
     return !orders.empty();
   }));
   return orders;
@@ -39,12 +39,12 @@ TEST(Admin, AnOrderReachesItsVehicleAloneAndWhole) {
   chief.Seek(VehicleId{2});
   ASSERT_TRUE(
       Eventually([&] { return chief.Reaches(VehicleId{1}) && chief.Reaches(VehicleId{2}); }));
-  const AdminOrder sent = OrderTo(VehicleId{2}, 77);
+  const AdminRequest sent = OrderTo(VehicleId{2}, 77);
   ASSERT_TRUE(chief.Send(sent));
   const auto got = OrdersOf(two);
   ASSERT_EQ(got.size(), 1U);
   EXPECT_EQ(got[0].number, 77U);
-  EXPECT_EQ(got[0].kind, OrderKind::kApply);
+  EXPECT_EQ(got[0].kind, AdminRequestKind::kApply);
   EXPECT_EQ(got[0].profiles, sent.profiles);
   // What it is sent next is the first that the other hears.
   ASSERT_TRUE(chief.Send(OrderTo(VehicleId{1}, 78)));
@@ -56,22 +56,22 @@ TEST(Admin, AnOrderToTheWorldReachesItAndIsAnswered) {
   link::WorldLink world(OptionsIn(domain));
   Beaconing vehicle(OptionsIn(domain), VehicleId{1});
   link::OperatorLink chief(OptionsIn(domain));
-  chief.Seek(kNobody);
-  ASSERT_TRUE(Eventually([&] { return chief.Reaches(kNobody); }));
-  ASSERT_TRUE(chief.Send(OrderTo(kNobody, 9)));
-  std::vector<AdminOrder> orders;
+  chief.Seek(kNoVehicle);
+  ASSERT_TRUE(Eventually([&] { return chief.Reaches(kNoVehicle); }));
+  ASSERT_TRUE(chief.Send(OrderTo(kNoVehicle, 9)));
+  std::vector<AdminRequest> orders;
   ASSERT_TRUE(Eventually([&] {
-    orders = world.TakeOrders();
+    orders = world.TakeAdminRequests();
     return !orders.empty();
   }));
   EXPECT_EQ(orders[0].number, 9U);
-  world.SendAnswer({.vehicle = kNobody, .order = 9, .profiles = {"mine.xml", "<dds/>"}});
+  world.SendAnswer({.vehicle = kNoVehicle, .order = 9, .profiles = {"mine.xml", "<dds/>"}});
   std::vector<AdminAnswer> answers;
   ASSERT_TRUE(Eventually([&] {
     answers = chief.Take();
     return !answers.empty();
   }));
-  EXPECT_EQ(answers[0].vehicle, kNobody);
+  EXPECT_EQ(answers[0].vehicle, kNoVehicle);
   EXPECT_EQ(answers[0].order, 9U);
   EXPECT_TRUE(Eventually([&] { return chief.Announced() == std::vector{VehicleId{1}}; }));
 }
@@ -146,17 +146,17 @@ TEST(Admin, ADeadlineThatWasChangedIsTheOneThatHolds) {
   Beaconing hearer(OptionsIn(domain), VehicleId{2});
   ASSERT_TRUE(hearer.Link().SetDeadline("fleet_beacon_reader", Nanoseconds(kLonger).count()));
   EXPECT_EQ(hearer.Link().BeaconQos().deadline_requested_ms, 600);
-  Ears ears(hearer.Link());
+  ReceptionMonitor monitor(hearer.Link());
   ASSERT_TRUE(Eventually([&] {
     sender.Send();
-    ears.Listen();
-    return ears.Heard().contains(VehicleId{1});
+    monitor.Listen();
+    return monitor.Heard().contains(VehicleId{1});
   }));
   const auto silent_since = std::chrono::steady_clock::now();
   ASSERT_TRUE(Eventually([&] {
-    ears.Listen();
-    const auto told = ears.Told(QosEventKind::kDeadlineMissed);
-    return std::ranges::find(told, VehicleId{1}) != told.end();
+    monitor.Listen();
+    const auto missed = monitor.EventsOf(QosEventKind::kDeadlineMissed);
+    return std::ranges::find(missed, VehicleId{1}) != missed.end();
   }));
   // The last sample came a moment before.
   EXPECT_GE(std::chrono::steady_clock::now() - silent_since, kLonger - milliseconds(100));

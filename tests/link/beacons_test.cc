@@ -23,18 +23,18 @@ TEST(Beacons, OfTwentyFiveVehiclesAreAllHeard) {
   const DomainLock domain;
   link::VehicleLink listener(OptionsIn(domain));
   listener.Open(kListener);
-  Ears ears(listener);
+  ReceptionMonitor monitor(listener);
   std::vector<std::unique_ptr<Beaconing>> fleet;
   for (std::uint32_t id = 1; id <= 25; ++id) {
     fleet.push_back(std::make_unique<Beaconing>(OptionsIn(domain), VehicleId{id}));
   }
   EXPECT_TRUE(Eventually([&] {
     for (auto& vehicle : fleet) vehicle->Send();
-    ears.Listen();
+    monitor.Listen();
     // The library hands over samples of a matched writer before it reports the match.
-    return ears.Heard().size() == 25 && listener.Counters().matched_peers >= 25U;
+    return monitor.Heard().size() == 25 && listener.Counters().matched_peers >= 25U;
   })) << "heard "
-      << ears.Heard().size();
+      << monitor.Heard().size();
   EXPECT_EQ(listener.Counters().matched_peers, 25U);
 }
 
@@ -61,19 +61,19 @@ TEST(Beacons, OfTheOwnVehicleAreNotHandedOverAndNoPeerIsCounted) {
   const DomainLock domain;
   Beaconing alone(OptionsIn(domain), VehicleId{1});
   Beaconing peer(OptionsIn(domain), VehicleId{2});
-  Ears ears(alone.Link());
+  ReceptionMonitor monitor(alone.Link());
   ASSERT_TRUE(Eventually([&] {
     alone.Send();
     peer.Send();
-    ears.Listen();
-    return ears.Beacons().size() >= 20;
+    monitor.Listen();
+    return monitor.Beacons().size() >= 20;
   }));
-  for (const ReceivedBeacon& received : ears.Beacons()) {
+  for (const ReceivedBeacon& received : monitor.Beacons()) {
     EXPECT_EQ(received.beacon.vehicle, VehicleId{2});
   }
   EXPECT_EQ(alone.Link().Counters().matched_peers, 1U);
   EXPECT_EQ(alone.Link().Counters().refused.unbound_samples, 0U);
-  EXPECT_THAT(ears.Told(QosEventKind::kMatched), Each(VehicleId{2}));
+  EXPECT_THAT(monitor.EventsOf(QosEventKind::kMatched), Each(VehicleId{2}));
 }
 
 TEST(Beacons, WithABrokenSumArriveAsBroken) {
@@ -81,16 +81,16 @@ TEST(Beacons, WithABrokenSumArriveAsBroken) {
   RawSender sender(OptionsIn(domain), "main/v5");
   link::VehicleLink listener(OptionsIn(domain));
   listener.Open(kListener);
-  Ears ears(listener);
+  ReceptionMonitor monitor(listener);
   wire::Beacon broken = WireBeaconFrom(VehicleId{5});
   broken.tick() ^= 4U;
   ASSERT_TRUE(Eventually([&] {
     sender.Send(broken);
-    ears.Listen();
-    return !ears.Beacons().empty();
+    monitor.Listen();
+    return !monitor.Beacons().empty();
   }));
-  EXPECT_FALSE(ears.Beacons()[0].crc_valid);
-  EXPECT_TRUE(ears.Beacons()[0].name_valid);
+  EXPECT_FALSE(monitor.Beacons()[0].crc_valid);
+  EXPECT_TRUE(monitor.Beacons()[0].name_valid);
 }
 
 TEST(Beacons, InAnotherVehiclesNameArriveAsMisnamed) {
@@ -99,21 +99,21 @@ TEST(Beacons, InAnotherVehiclesNameArriveAsMisnamed) {
   RawSender nameless(OptionsIn(domain), "main/*");
   link::VehicleLink listener(OptionsIn(domain));
   listener.Open(kListener);
-  Ears ears(listener);
+  ReceptionMonitor monitor(listener);
   bool heard_liar = false;
   bool heard_nameless = false;
   ASSERT_TRUE(Eventually([&] {
     liar.Send(WireBeaconFrom(VehicleId{3}));
     nameless.Send(WireBeaconFrom(VehicleId{4}));
-    ears.Listen();
-    for (const ReceivedBeacon& received : ears.Beacons()) {
+    monitor.Listen();
+    for (const ReceivedBeacon& received : monitor.Beacons()) {
       heard_liar |= received.beacon.vehicle == VehicleId{3};
       heard_nameless |= received.beacon.vehicle == VehicleId{4};
     }
     return heard_liar && heard_nameless;
   }));
-  EXPECT_THAT(ears.Beacons(), Each(Field(&ReceivedBeacon::name_valid, false)));
-  EXPECT_THAT(ears.Beacons(), Each(Field(&ReceivedBeacon::crc_valid, true)));
+  EXPECT_THAT(monitor.Beacons(), Each(Field(&ReceivedBeacon::name_valid, false)));
+  EXPECT_THAT(monitor.Beacons(), Each(Field(&ReceivedBeacon::crc_valid, true)));
 }
 
 TEST(Beacons, OfTwoVehiclesWithOneIdComeFromTwoWriters) {
@@ -122,16 +122,16 @@ TEST(Beacons, OfTwoVehiclesWithOneIdComeFromTwoWriters) {
   Beaconing second(OptionsIn(domain), VehicleId{5});
   link::VehicleLink listener(OptionsIn(domain));
   listener.Open(kListener);
-  Ears ears(listener);
+  ReceptionMonitor monitor(listener);
   std::set<std::uint64_t> writers;
   EXPECT_TRUE(Eventually([&] {
     first.Send();
     second.Send();
-    ears.Listen();
-    for (const ReceivedBeacon& received : ears.Beacons()) writers.insert(received.writer);
+    monitor.Listen();
+    for (const ReceivedBeacon& received : monitor.Beacons()) writers.insert(received.writer);
     return writers.size() == 2;
   }));
-  EXPECT_THAT(ears.Beacons(), Each(Field(&ReceivedBeacon::name_valid, true)));
+  EXPECT_THAT(monitor.Beacons(), Each(Field(&ReceivedBeacon::name_valid, true)));
 }
 
 TEST(Beacons, OfAnotherAreaAreNotHeard) {
@@ -142,14 +142,14 @@ TEST(Beacons, OfAnotherAreaAreNotHeard) {
   Beaconing here(OptionsIn(domain), VehicleId{2});
   link::VehicleLink listener(OptionsIn(domain));
   listener.Open(kListener);
-  Ears ears(listener);
+  ReceptionMonitor monitor(listener);
   ASSERT_TRUE(Eventually([&] {
     there.Send();
     here.Send();
-    ears.Listen();
-    return ears.Beacons().size() >= 20;
+    monitor.Listen();
+    return monitor.Beacons().size() >= 20;
   }));
-  EXPECT_FALSE(ears.Heard().contains(VehicleId{1}));
+  EXPECT_FALSE(monitor.Heard().contains(VehicleId{1}));
 }
 
 TEST(Beacons, OverwrittenBeforeADrainAreCountedAsSuperseded) {

@@ -209,7 +209,7 @@ bool IsFinite(const CameraScan& scan) {
 // Corrupts up to four bytes of a valid sample `kRounds` times; whatever then passes is valid too.
 // Returns how many did not pass.
 template <typename Ours>
-int SpoilAndCountRefusals(const Ours& sound) {
+int CorruptAndCountRefusals(const Ours& sound) {
   constexpr int kRounds = 20000;
   auto sample = ToWire(sound);
   using Wire = decltype(sample);
@@ -241,8 +241,8 @@ int SpoilAndCountRefusals(const Ours& sound) {
 }
 
 TEST(ConvertSensors, SpoiltBytesNeverComeThroughAsAnUnsoundScan) {
-  EXPECT_GT(SpoilAndCountRefusals(FullRadar()), 1000);
-  EXPECT_GT(SpoilAndCountRefusals(FullCamera()), 1000);
+  EXPECT_GT(CorruptAndCountRefusals(FullRadar()), 1000);
+  EXPECT_GT(CorruptAndCountRefusals(FullCamera()), 1000);
 }
 
 TEST(ConvertSensors, ALidarScanFitsOneDatagramWithRoomToSpare) {

@@ -112,14 +112,15 @@ TEST(Convert, ScanComesBackWithEverySensor) {
 }
 
 TEST(Convert, CommandComesBack) {
-  const MotorCommand sent{.vehicle = VehicleId{1},
-                          .epoch = WorldEpoch{2},
-                          .tick = Tick{3},
-                          .target = {kInfinity, -0.5},
-                          .decision = {Mode::kSensorOnly, Rule::kDeaf, VehicleId{4}, -1, Tick{5}},
-                          .decision_changed = true,
-                          .matched_peers = kMax,
-                          .task = {6, 7}};
+  const MotorCommand sent{
+      .vehicle = VehicleId{1},
+      .epoch = WorldEpoch{2},
+      .tick = Tick{3},
+      .target = {kInfinity, -0.5},
+      .decision = {Mode::kSensorOnly, Rule::kUnidentifiedMotion, VehicleId{4}, -1, Tick{5}},
+      .decision_changed = true,
+      .matched_peers = kMax,
+      .task = {6, 7}};
   const MotorCommand back = RoundTrip(sent);
   EXPECT_EQ(back.vehicle, sent.vehicle);
   EXPECT_EQ(back.epoch, sent.epoch);
@@ -440,9 +441,9 @@ TEST(Convert, BytesThatAreNoSampleAreRefusedWithoutAnException) {
   ASSERT_TRUE(Deserialize(type, payload, &arrived));
   for (std::uint32_t i = 0; i < whole; ++i) {
     const auto kept = payload.data[i];
-    for (const int spoilt : {0x02, 0x80, 0xff}) {
-      payload.data[i] = static_cast<rtps::octet>(spoilt);
-      EXPECT_NO_THROW(Deserialize(type, payload, &arrived)) << i << " is " << spoilt;
+    for (const int corrupted : {0x02, 0x80, 0xff}) {
+      payload.data[i] = static_cast<rtps::octet>(corrupted);
+      EXPECT_NO_THROW(Deserialize(type, payload, &arrived)) << i << " is " << corrupted;
     }
     payload.data[i] = kept;
   }

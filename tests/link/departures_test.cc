@@ -25,27 +25,27 @@ TEST(Departures, OfThreeVehiclesKilledAtOnceAreEachNamed) {
   const link::LinkOptions options = OptionsIn(domain);
   link::VehicleLink listener(options);
   listener.Open(kListener);
-  Ears ears(listener);
+  ReceptionMonitor monitor(listener);
   std::vector<std::unique_ptr<BeaconingProcess>> fleet;
   for (std::uint32_t id = 1; id <= 5; ++id) {
     fleet.push_back(std::make_unique<BeaconingProcess>(options, VehicleId{id}));
   }
   ASSERT_TRUE(Eventually([&] {
-    ears.Listen();
-    return ears.Heard().size() == 5;
+    monitor.Listen();
+    return monitor.Heard().size() == 5;
   }));
-  ears.Forget();
+  monitor.Forget();
   for (const std::size_t i : {1, 2, 4}) fleet[i]->Kill();
   const std::vector<VehicleId> killed{VehicleId{2}, VehicleId{3}, VehicleId{5}};
   const auto times_told = [&](QosEventKind kind, VehicleId id) {
-    const std::vector<VehicleId> told = ears.Told(kind);
-    return std::count(told.begin(), told.end(), id);
+    const std::vector<VehicleId> events = monitor.EventsOf(kind);
+    return std::count(events.begin(), events.end(), id);
   };
   for (const QosEventKind kind : {QosEventKind::kLivelinessLost, QosEventKind::kDeadlineMissed}) {
     for (const VehicleId id : killed) {
       EXPECT_TRUE(Eventually(
           [&] {
-            ears.Listen();
+            monitor.Listen();
             return times_told(kind, id) > 0;
           },
           seconds(5)))
@@ -53,19 +53,19 @@ TEST(Departures, OfThreeVehiclesKilledAtOnceAreEachNamed) {
     }
   }
   // An event is reported once: the library repeats those of the dead, the link does not.
-  ears.Forget();
-  Repeat(milliseconds(1000), [&] { ears.Listen(); });
+  monitor.Forget();
+  Repeat(milliseconds(1000), [&] { monitor.Listen(); });
   for (const VehicleId id : killed) {
     EXPECT_EQ(times_told(QosEventKind::kDeadlineMissed, id), 0) << Number(id);
     EXPECT_EQ(times_told(QosEventKind::kLivelinessLost, id), 0) << Number(id);
   }
   // The living are still heard.
-  ears.Forget();
+  monitor.Forget();
   EXPECT_TRUE(Eventually([&] {
-    ears.Listen();
-    return ears.Heard().size() == 2;
+    monitor.Listen();
+    return monitor.Heard().size() == 2;
   }));
-  EXPECT_THAT(ears.Heard(), UnorderedElementsAre(VehicleId{1}, VehicleId{4}));
+  EXPECT_THAT(monitor.Heard(), UnorderedElementsAre(VehicleId{1}, VehicleId{4}));
 }
 
 TEST(Departures, OfFiftyVehiclesLeaveThePublishedCountersStill) {
@@ -104,16 +104,16 @@ TEST(Departures, OfFiftyVehiclesLeaveThePublishedCountersStill) {
         return listener.Matched() == 0;
       },
       seconds(30)));
-  EXPECT_EQ(listener.Told(QosEventKind::kMatched), 50U);
-  EXPECT_EQ(listener.Told(QosEventKind::kUnmatched), 50U);
-  EXPECT_GE(listener.Told(QosEventKind::kLivelinessLost), 10U);
+  EXPECT_EQ(listener.EventCount(QosEventKind::kMatched), 50U);
+  EXPECT_EQ(listener.EventCount(QosEventKind::kUnmatched), 50U);
+  EXPECT_GE(listener.EventCount(QosEventKind::kLivelinessLost), 10U);
 
   // No events of departed vehicles are reported, and they cost nothing: the library repeats the
   // miss of an instance every 150 ms for as long as it has it, and has one left of fifty.
-  const std::size_t told = listener.Told();
+  const std::size_t events = listener.EventCount();
   const std::size_t raw = listener.RawMisses();
   Repeat(milliseconds(1500), [&] { listener.Listen(); });
-  EXPECT_EQ(listener.Told(), told);
+  EXPECT_EQ(listener.EventCount(), events);
   EXPECT_LE(listener.RawMisses() - raw, 30U) << "of 500, were all repeated";
 
   // It still watches those who come.
@@ -257,36 +257,36 @@ TEST(Departures, ARestartedVehicleIsHeardAgainAndMissedAgain) {
   const link::LinkOptions options = OptionsIn(domain);
   link::VehicleLink listener(options);
   listener.Open(kListener);
-  Ears ears(listener);
+  ReceptionMonitor monitor(listener);
   const auto hear_it = [&] {
     return Eventually([&] {
-      ears.Listen();
-      return ears.Heard().contains(VehicleId{5});
+      monitor.Listen();
+      return monitor.Heard().contains(VehicleId{5});
     });
   };
   std::uint64_t first_writer = 0;
   {
     const BeaconingProcess first_life(options, VehicleId{5});
     ASSERT_TRUE(hear_it());
-    first_writer = ears.Beacons().back().writer;
+    first_writer = monitor.Beacons().back().writer;
   }
   ASSERT_TRUE(Eventually([&] {
-    ears.Listen();
-    return ears.Told(QosEventKind::kLivelinessLost).size() == 1 &&
-           ears.Told(QosEventKind::kDeadlineMissed).size() == 1;
+    monitor.Listen();
+    return monitor.EventsOf(QosEventKind::kLivelinessLost).size() == 1 &&
+           monitor.EventsOf(QosEventKind::kDeadlineMissed).size() == 1;
   }));
-  ears.Forget();
+  monitor.Forget();
   {
     // At once, while the dead participant is still remembered.
     const BeaconingProcess second_life(options, VehicleId{5});
     ASSERT_TRUE(hear_it());
-    EXPECT_NE(ears.Beacons().back().writer, first_writer);
+    EXPECT_NE(monitor.Beacons().back().writer, first_writer);
   }
   EXPECT_TRUE(Eventually([&] {
-    ears.Listen();
-    return !ears.Told(QosEventKind::kDeadlineMissed).empty();
+    monitor.Listen();
+    return !monitor.EventsOf(QosEventKind::kDeadlineMissed).empty();
   }));
-  EXPECT_EQ(ears.Told(QosEventKind::kDeadlineMissed).front(), VehicleId{5});
+  EXPECT_EQ(monitor.EventsOf(QosEventKind::kDeadlineMissed).front(), VehicleId{5});
 }
 
 TEST(Departures, AVehicleThatPausesIsMissedOnceAndComesBack) {
@@ -294,23 +294,23 @@ TEST(Departures, AVehicleThatPausesIsMissedOnceAndComesBack) {
   Beaconing sender(OptionsIn(domain), VehicleId{5});
   link::VehicleLink listener(OptionsIn(domain));
   listener.Open(kListener);
-  Ears ears(listener);
+  ReceptionMonitor monitor(listener);
   ASSERT_TRUE(Eventually([&] {
     sender.Send();
-    ears.Listen();
-    return ears.Heard().contains(VehicleId{5});
+    monitor.Listen();
+    return monitor.Heard().contains(VehicleId{5});
   }));
-  ears.Forget();
+  monitor.Forget();
   // Ten deadlines go by: one edge, not ten misses.
-  Repeat(milliseconds(1500), [&] { ears.Listen(); });
-  EXPECT_THAT(ears.Told(QosEventKind::kDeadlineMissed), SizeIs(1));
-  EXPECT_THAT(ears.Told(QosEventKind::kLivelinessLost), SizeIs(1));
+  Repeat(milliseconds(1500), [&] { monitor.Listen(); });
+  EXPECT_THAT(monitor.EventsOf(QosEventKind::kDeadlineMissed), SizeIs(1));
+  EXPECT_THAT(monitor.EventsOf(QosEventKind::kLivelinessLost), SizeIs(1));
   EXPECT_TRUE(Eventually([&] {
     sender.Send();
-    ears.Listen();
-    return !ears.Told(QosEventKind::kLivelinessBack).empty() && ears.Heard().size() == 1;
+    monitor.Listen();
+    return !monitor.EventsOf(QosEventKind::kLivelinessBack).empty() && monitor.Heard().size() == 1;
   }));
-  EXPECT_EQ(ears.Told(QosEventKind::kLivelinessBack).front(), VehicleId{5});
+  EXPECT_EQ(monitor.EventsOf(QosEventKind::kLivelinessBack).front(), VehicleId{5});
 }
 
 }  // namespace

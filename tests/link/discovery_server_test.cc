@@ -64,34 +64,34 @@ TEST_F(DiscoveryServerTest, BringsThoseTogetherWhoKnowItsAddressAndNobodyElse) {
   link::LinkOptions by_multicast = options_;
   by_multicast.discovery_servers.clear();
   Beaconing three(by_multicast, VehicleId{3});
-  Ears ears(two.Link());
+  ReceptionMonitor monitor(two.Link());
   const auto speak = [&] {
     one.Send();
     three.Send();
-    ears.Listen();
+    monitor.Listen();
   };
   EXPECT_TRUE(Eventually([&] {
     speak();
-    return ears.Heard().contains(VehicleId{1});
+    return monitor.Heard().contains(VehicleId{1});
   }));
   Repeat(std::chrono::milliseconds(500), speak);
-  EXPECT_FALSE(ears.Heard().contains(VehicleId{3}));
-  EXPECT_EQ(two.Link().WhyNobodyIsFound(), "");
+  EXPECT_FALSE(monitor.Heard().contains(VehicleId{3}));
+  EXPECT_EQ(two.Link().WhyNoPeerIsFound(), "");
 }
 
 TEST_F(DiscoveryServerTest, ThatDoesNotAnswerIsNamedUntilItDoes) {
   Beaconing one(options_, VehicleId{1});
   const std::string port = std::to_string(port_);
-  EXPECT_THAT(one.Link().WhyNobodyIsFound(),
+  EXPECT_THAT(one.Link().WhyNoPeerIsFound(),
               AllOf(HasSubstr("no discovery server answers"), HasSubstr("localhost:" + port)));
   const Server server = MakeServer(domain_.Domain(), port_);
-  EXPECT_TRUE(Eventually([&] { return one.Link().WhyNobodyIsFound().empty(); }));
+  EXPECT_TRUE(Eventually([&] { return one.Link().WhyNoPeerIsFound().empty(); }));
 }
 
 TEST_F(DiscoveryServerTest, IsNotMissedWhereMulticastFindsEverybody) {
   options_.discovery_servers.clear();
   Beaconing one(options_, VehicleId{1});
-  EXPECT_EQ(one.Link().WhyNobodyIsFound(), "");
+  EXPECT_EQ(one.Link().WhyNoPeerIsFound(), "");
 }
 
 TEST(ServerAddresses, AreThoseOfTheNamesAndOfNumbersAsTheyAre) {

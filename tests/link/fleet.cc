@@ -71,7 +71,7 @@ void BeaconingProcess::Kill() {
   pid_ = -1;
 }
 
-void Ears::Listen() {
+void ReceptionMonitor::Listen() {
   const link::Taken taken = link_.Take(SteadyTime{1});
   for (const ReceivedBeacon& received : taken.inputs.beacons) {
     beacons_.push_back(received);
@@ -80,15 +80,15 @@ void Ears::Listen() {
   events_.insert(events_.end(), taken.inputs.events.begin(), taken.inputs.events.end());
 }
 
-std::vector<VehicleId> Ears::Told(QosEventKind kind) const {
-  std::vector<VehicleId> told;
+std::vector<VehicleId> ReceptionMonitor::EventsOf(QosEventKind kind) const {
+  std::vector<VehicleId> vehicles;
   for (const QosEvent& event : events_) {
-    if (event.kind == kind) told.push_back(event.vehicle);
+    if (event.kind == kind) vehicles.push_back(event.vehicle);
   }
-  return told;
+  return vehicles;
 }
 
-void Ears::Forget() {
+void ReceptionMonitor::Forget() {
   heard_.clear();
   beacons_.clear();
   events_.clear();

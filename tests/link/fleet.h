@@ -54,14 +54,14 @@ class BeaconingProcess {
 };
 
 // What a vehicle has taken so far, summed up.
-class Ears {
+class ReceptionMonitor {
  public:
-  explicit Ears(link::VehicleLink& link) : link_(link) {}
+  explicit ReceptionMonitor(link::VehicleLink& link) : link_(link) {}
   void Listen();
   // Vehicles a named, sound beacon came from.
   const std::set<VehicleId>& Heard() const { return heard_; }
   // The vehicles that events of a kind were about, in order.
-  std::vector<VehicleId> Told(QosEventKind kind) const;
+  std::vector<VehicleId> EventsOf(QosEventKind kind) const;
   const std::vector<ReceivedBeacon>& Beacons() const { return beacons_; }
   void Forget();
 

@@ -51,12 +51,12 @@ class ForeignWriter : public ::testing::Test {
   bool WriteUntil(dds_entity_t writer, const std::function<bool()>& is_so, VehicleId id = kFive) {
     return Eventually([&] {
       Write(writer, BeaconOf(id, ++seq_));
-      ears_.Listen();
+      monitor_.Listen();
       return is_so();
     });
   }
   bool IsHeard(dds_entity_t writer) {
-    return WriteUntil(writer, [&] { return ears_.Heard().contains(kFive); });
+    return WriteUntil(writer, [&] { return monitor_.Heard().contains(kFive); });
   }
   // That it is not heard, while another one is: then discovery is through.
   void ExpectUnheard(dds_entity_t writer) {
@@ -64,10 +64,10 @@ class ForeignWriter : public ::testing::Test {
     std::uint32_t seq = 0;
     ASSERT_TRUE(WriteUntil(writer, [&] {
       Write(sound, BeaconOf(VehicleId{6}, ++seq));
-      return ears_.Beacons().size() >= 20;
+      return monitor_.Beacons().size() >= 20;
     }));
-    EXPECT_THAT(ears_.Heard(), ::testing::ElementsAre(VehicleId{6}));
-    for (const ReceivedBeacon& received : ears_.Beacons()) {
+    EXPECT_THAT(monitor_.Heard(), ::testing::ElementsAre(VehicleId{6}));
+    for (const ReceivedBeacon& received : monitor_.Beacons()) {
       EXPECT_EQ(received.beacon.vehicle, VehicleId{6});
     }
   }
@@ -78,7 +78,7 @@ class ForeignWriter : public ::testing::Test {
     dds_get_offered_incompatible_qos_status(writer, &status);
     EXPECT_GT(status.total_count, 0U);
     EXPECT_EQ(status.last_policy_id, static_cast<std::uint32_t>(policy));
-    const auto reported = ears_.Told(QosEventKind::kIncompatibleQos);
+    const auto reported = monitor_.EventsOf(QosEventKind::kIncompatibleQos);
     EXPECT_THAT(reported, Not(IsEmpty()));
     EXPECT_THAT(reported, Each(kFive));  // never the valid one next to it
   }
@@ -86,7 +86,7 @@ class ForeignWriter : public ::testing::Test {
   DomainLock domain_;
   std::optional<ForeignParticipant> stranger_{std::in_place, domain_.Domain()};
   link::VehicleLink listener_;
-  Ears ears_{listener_};
+  ReceptionMonitor monitor_{listener_};
   std::uint32_t seq_ = 0;
 };
 
@@ -103,10 +103,10 @@ TEST_F(ForeignWriter, IsHeardInEveryField) {
   const dds_entity_t writer = stranger_->MakeWriter(AsRequested());
   ASSERT_TRUE(Eventually([&] {
     Write(writer, ForeignFrom(said));
-    ears_.Listen();
-    return !ears_.Beacons().empty();
+    monitor_.Listen();
+    return !monitor_.Beacons().empty();
   }));
-  const ReceivedBeacon& heard = ears_.Beacons()[0];
+  const ReceivedBeacon& heard = monitor_.Beacons()[0];
   EXPECT_TRUE(heard.crc_valid);
   EXPECT_TRUE(heard.name_valid);
   EXPECT_NE(heard.writer, 0U);
@@ -123,9 +123,9 @@ TEST_F(ForeignWriter, IsHeardInEveryField) {
 TEST_F(ForeignWriter, IsAPeerWithItsName) {
   // The library hands over samples of a matched writer before it reports the match.
   ASSERT_TRUE(WriteUntil(stranger_->MakeWriter(AsRequested()), [&] {
-    return ears_.Heard().contains(kFive) && !ears_.Told(QosEventKind::kMatched).empty();
+    return monitor_.Heard().contains(kFive) && !monitor_.EventsOf(QosEventKind::kMatched).empty();
   }));
-  EXPECT_THAT(ears_.Told(QosEventKind::kMatched), Each(kFive));
+  EXPECT_THAT(monitor_.EventsOf(QosEventKind::kMatched), Each(kFive));
   EXPECT_EQ(listener_.Counters().matched_peers, 1U);
   EXPECT_EQ(listener_.Counters().refused.unreadable_samples, 0U);
 }
@@ -136,8 +136,8 @@ TEST_F(ForeignWriter, AndAnotherAreTwoVehicles) {
   std::set<std::uint64_t> writers;
   EXPECT_TRUE(WriteUntil(five, [&] {
     Write(six, BeaconOf(VehicleId{6}, seq_));
-    for (const ReceivedBeacon& received : ears_.Beacons()) writers.insert(received.writer);
-    return ears_.Heard().size() == 2 && writers.size() == 2;
+    for (const ReceivedBeacon& received : monitor_.Beacons()) writers.insert(received.writer);
+    return monitor_.Heard().size() == 2 && writers.size() == 2;
   }));
 }
 
@@ -150,9 +150,9 @@ TEST_F(ForeignWriter, ThatOffersReliabilityIsHeardToo) {
 TEST_F(ForeignWriter, InAnotherVehiclesNameIsHeardAsMisnamed) {
   const dds_entity_t writer = stranger_->MakeWriter(AsRequested());
   ASSERT_TRUE(WriteUntil(
-      writer, [&] { return !ears_.Beacons().empty(); }, VehicleId{3}));
-  EXPECT_THAT(ears_.Beacons(), Each(::testing::Field(&ReceivedBeacon::name_valid, false)));
-  EXPECT_THAT(ears_.Beacons(), Each(::testing::Field(&ReceivedBeacon::crc_valid, true)));
+      writer, [&] { return !monitor_.Beacons().empty(); }, VehicleId{3}));
+  EXPECT_THAT(monitor_.Beacons(), Each(::testing::Field(&ReceivedBeacon::name_valid, false)));
+  EXPECT_THAT(monitor_.Beacons(), Each(::testing::Field(&ReceivedBeacon::crc_valid, true)));
 }
 
 TEST_F(ForeignWriter, WithABrokenSumIsHeardAsBroken) {
@@ -161,31 +161,31 @@ TEST_F(ForeignWriter, WithABrokenSumIsHeardAsBroken) {
   broken.tick ^= 4U;
   ASSERT_TRUE(Eventually([&] {
     Write(writer, broken);
-    ears_.Listen();
-    return !ears_.Beacons().empty();
+    monitor_.Listen();
+    return !monitor_.Beacons().empty();
   }));
-  EXPECT_FALSE(ears_.Beacons()[0].crc_valid);
+  EXPECT_FALSE(monitor_.Beacons()[0].crc_valid);
 }
 
 TEST_F(ForeignWriter, ThatFallsSilentMissesItsDeadlineByName) {
   ASSERT_TRUE(IsHeard(stranger_->MakeWriter(AsRequested())));
   EXPECT_TRUE(Eventually([&] {
-    ears_.Listen();
-    return !ears_.Told(QosEventKind::kDeadlineMissed).empty();
+    monitor_.Listen();
+    return !monitor_.EventsOf(QosEventKind::kDeadlineMissed).empty();
   }));
-  EXPECT_THAT(ears_.Told(QosEventKind::kDeadlineMissed), Each(kFive));
+  EXPECT_THAT(monitor_.EventsOf(QosEventKind::kDeadlineMissed), Each(kFive));
 }
 
 TEST_F(ForeignWriter, ThatFallsSilentIsNotAliveUntilItSpeaksAgain) {
   const dds_entity_t writer = stranger_->MakeWriter(AsRequested());
   ASSERT_TRUE(IsHeard(writer));
   ASSERT_TRUE(Eventually([&] {
-    ears_.Listen();
-    return !ears_.Told(QosEventKind::kLivelinessLost).empty();
+    monitor_.Listen();
+    return !monitor_.EventsOf(QosEventKind::kLivelinessLost).empty();
   }));
-  EXPECT_THAT(ears_.Told(QosEventKind::kLivelinessLost), Each(kFive));
-  EXPECT_TRUE(
-      WriteUntil(writer, [&] { return !ears_.Told(QosEventKind::kLivelinessBack).empty(); }));
+  EXPECT_THAT(monitor_.EventsOf(QosEventKind::kLivelinessLost), Each(kFive));
+  EXPECT_TRUE(WriteUntil(
+      writer, [&] { return !monitor_.EventsOf(QosEventKind::kLivelinessBack).empty(); }));
 }
 
 TEST_F(ForeignWriter, ThatStillSpeaksDoesNotKeepASilentOneAlive) {
@@ -193,10 +193,11 @@ TEST_F(ForeignWriter, ThatStillSpeaksDoesNotKeepASilentOneAlive) {
   const dds_entity_t six = stranger_->MakeWriter(AsRequested("main/v6"));
   ASSERT_TRUE(WriteUntil(five, [&] {
     Write(six, BeaconOf(VehicleId{6}, seq_));
-    return ears_.Heard().size() == 2;
+    return monitor_.Heard().size() == 2;
   }));
-  EXPECT_TRUE(WriteUntil(five, [&] { return !ears_.Told(QosEventKind::kLivelinessLost).empty(); }));
-  EXPECT_THAT(ears_.Told(QosEventKind::kLivelinessLost), Each(VehicleId{6}));
+  EXPECT_TRUE(
+      WriteUntil(five, [&] { return !monitor_.EventsOf(QosEventKind::kLivelinessLost).empty(); }));
+  EXPECT_THAT(monitor_.EventsOf(QosEventKind::kLivelinessLost), Each(VehicleId{6}));
 }
 
 // Fast DDS 2.9.1 ignores Cyclone's notice that an endpoint is gone: only liveliness reports it.
@@ -205,10 +206,10 @@ TEST_F(ForeignWriter, ThatLeavesIsNotAliveByName) {
   ASSERT_TRUE(IsHeard(writer));
   dds_delete(writer);
   EXPECT_TRUE(Eventually([&] {
-    ears_.Listen();
-    return !ears_.Told(QosEventKind::kLivelinessLost).empty();
+    monitor_.Listen();
+    return !monitor_.EventsOf(QosEventKind::kLivelinessLost).empty();
   }));
-  EXPECT_THAT(ears_.Told(QosEventKind::kLivelinessLost), Each(kFive));
+  EXPECT_THAT(monitor_.EventsOf(QosEventKind::kLivelinessLost), Each(kFive));
 }
 
 // Nor that a participant is: it stays a peer until the ten seconds of its lease are over.
@@ -216,10 +217,10 @@ TEST_F(ForeignWriter, WhoseProcessEndsIsUnmatchedByName) {
   ASSERT_TRUE(IsHeard(stranger_->MakeWriter(AsRequested())));
   stranger_.reset();
   EXPECT_TRUE(Eventually([&] {
-    ears_.Listen();
-    return !ears_.Told(QosEventKind::kUnmatched).empty();
+    monitor_.Listen();
+    return !monitor_.EventsOf(QosEventKind::kUnmatched).empty();
   }));
-  EXPECT_THAT(ears_.Told(QosEventKind::kUnmatched), Each(kFive));
+  EXPECT_THAT(monitor_.EventsOf(QosEventKind::kUnmatched), Each(kFive));
   EXPECT_EQ(listener_.Counters().matched_peers, 0U);
 }
 

@@ -109,23 +109,23 @@ TEST_F(ForeignReader, TellsVehiclesApartByTheirKey) {
   Beaconing eight(OptionsIn(domain_), VehicleId{8});
   Beaconing nine(OptionsIn(domain_), VehicleId{9});
   const dds_entity_t reader = stranger_.MakeReader(AsOffered());
-  std::set<std::pair<std::uint32_t, dds_instance_handle_t>> told;
+  std::set<std::pair<std::uint32_t, dds_instance_handle_t>> instances;
   ASSERT_TRUE(Eventually([&] {
     vehicle_.Send();
     eight.Send();
     nine.Send();
     for (const ForeignSample& sample : Take(reader)) {
-      if (sample.valid) told.emplace(sample.beacon.vehicle, sample.instance);
+      if (sample.valid) instances.emplace(sample.beacon.vehicle, sample.instance);
     }
-    return told.size() >= 3;
+    return instances.size() >= 3;
   }));
   Repeat(milliseconds(200), [&] {
     eight.Send();
     for (const ForeignSample& sample : Take(reader)) {
-      if (sample.valid) told.emplace(sample.beacon.vehicle, sample.instance);
+      if (sample.valid) instances.emplace(sample.beacon.vehicle, sample.instance);
     }
   });
-  EXPECT_EQ(told.size(), 3U);  // one instance a vehicle, always the same
+  EXPECT_EQ(instances.size(), 3U);  // one instance a vehicle, always the same
 }
 
 TEST_F(ForeignReader, InOneVehiclesPartitionHearsThatVehicleOnly) {
@@ -224,14 +224,14 @@ TEST_F(ForeignReader, APartitionFreeVehicleIsHeardOnceByItsPeers) {
   link::LinkOptions options = OptionsIn(domain_);
   options.partition_free = true;
   Beaconing open(options, VehicleId{8});
-  Ears ears(vehicle_.Link());
+  ReceptionMonitor monitor(vehicle_.Link());
   ASSERT_TRUE(Eventually([&] {
     open.Send();
-    ears.Listen();
-    return ears.Beacons().size() >= 30;
+    monitor.Listen();
+    return monitor.Beacons().size() >= 30;
   }));
   std::set<std::uint32_t> seqs;
-  for (const ReceivedBeacon& received : ears.Beacons()) {
+  for (const ReceivedBeacon& received : monitor.Beacons()) {
     EXPECT_TRUE(seqs.insert(received.beacon.seq).second) << received.beacon.seq;
     EXPECT_TRUE(received.name_valid);
   }

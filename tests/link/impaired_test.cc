@@ -31,13 +31,14 @@ link::LinkOptions ImpairedIn(const DomainLock& domain, std::vector<ImpairmentRul
 // A vehicle that hears through `rules`, and its ears.
 struct Listener {
   Listener(const DomainLock& domain, std::vector<ImpairmentRule> rules)
-      : link(rules.empty() ? OptionsIn(domain) : ImpairedIn(domain, std::move(rules))), ears(link) {
+      : link(rules.empty() ? OptionsIn(domain) : ImpairedIn(domain, std::move(rules))),
+        monitor(link) {
     link.Open(kListener);
   }
   ImpairmentCounters Impaired() const { return link.Impaired().value(); }
 
   link::VehicleLink link;
-  Ears ears;
+  ReceptionMonitor monitor;
 };
 
 TEST(Impaired, NobodyIsUnlessAsked) {
@@ -48,19 +49,19 @@ TEST(Impaired, NobodyIsUnlessAsked) {
 
 TEST(Impaired, ByTotalLossAVehicleHearsNothingWhileOthersHear) {
   const DomainLock domain;
-  Listener deaf(domain, {{.loss = 1}});
+  Listener all_lost(domain, {{.loss = 1}});
   Beaconing sender(OptionsIn(domain), kThree);
   Beaconing other(OptionsIn(domain), kFour);
-  Ears others_ears(other.Link());
+  ReceptionMonitor others_monitor(other.Link());
   ASSERT_TRUE(Eventually([&] {
     sender.Send();
-    others_ears.Listen();
-    deaf.ears.Listen();
-    return others_ears.Beacons().size() >= 50 && deaf.Impaired().dropped_loss >= 5;
+    others_monitor.Listen();
+    all_lost.monitor.Listen();
+    return others_monitor.Beacons().size() >= 50 && all_lost.Impaired().dropped_loss >= 5;
   }));
-  EXPECT_TRUE(deaf.ears.Beacons().empty());
-  EXPECT_EQ(deaf.Impaired().passed, 0U);
-  EXPECT_EQ(deaf.link.Counters().matched_peers, 0U);
+  EXPECT_TRUE(all_lost.monitor.Beacons().empty());
+  EXPECT_EQ(all_lost.Impaired().passed, 0U);
+  EXPECT_EQ(all_lost.link.Counters().matched_peers, 0U);
 }
 
 TEST(Impaired, ByAFifthLostHearsFourFifths) {
@@ -70,25 +71,25 @@ TEST(Impaired, ByAFifthLostHearsFourFifths) {
   Beaconing sender(OptionsIn(domain), kThree);
   ASSERT_TRUE(Eventually([&] {
     sender.Send();
-    listener.ears.Listen();
-    return !listener.ears.Heard().empty();
+    listener.monitor.Listen();
+    return !listener.monitor.Heard().empty();
   }));
-  Repeat(milliseconds(100), [&] { listener.ears.Listen(); });
-  listener.ears.Forget();
+  Repeat(milliseconds(100), [&] { listener.monitor.Listen(); });
+  listener.monitor.Forget();
   for (std::uint32_t i = 0; i < kSent; ++i) {
     sender.Send();
     std::this_thread::sleep_for(milliseconds(2));
-    listener.ears.Listen();
+    listener.monitor.Listen();
   }
-  Repeat(milliseconds(200), [&] { listener.ears.Listen(); });
-  const double heard = static_cast<double>(listener.ears.Beacons().size()) / kSent;
+  Repeat(milliseconds(200), [&] { listener.monitor.Listen(); });
+  const double heard = static_cast<double>(listener.monitor.Beacons().size()) / kSent;
   // Five standard deviations, and 1 % for what the machine itself may lose.
   EXPECT_NEAR(heard, 0.8, 5 * std::sqrt(0.2 * 0.8 / kSent) + 0.01);
   const ImpairmentCounters counters = listener.Impaired();
   EXPECT_EQ(counters.packets, counters.passed + counters.dropped_loss);
   // A gap is reported once, however wide: of 2000 with a fifth lost there are some 2000 * 0.2 *
   // 0.8.
-  const auto gaps = listener.ears.Told(QosEventKind::kSampleLost);
+  const auto gaps = listener.monitor.EventsOf(QosEventKind::kSampleLost);
   EXPECT_NEAR(static_cast<double>(gaps.size()), 320, 100);
   EXPECT_THAT(gaps, ::testing::Each(kThree));
 }
@@ -103,10 +104,10 @@ TEST(Impaired, ByADelayHearsNothingEarlier) {
   ASSERT_TRUE(Eventually([&] {
     sent.push_back(steady_clock::now());
     sender.Send();
-    listener.ears.Forget();
-    listener.ears.Listen();
+    listener.monitor.Forget();
+    listener.monitor.Listen();
     const auto now = steady_clock::now();
-    for (const ReceivedBeacon& received : listener.ears.Beacons()) {
+    for (const ReceivedBeacon& received : listener.monitor.Beacons()) {
       took.push_back(now - sent[received.beacon.seq]);
     }
     return took.size() >= 100;
@@ -124,36 +125,36 @@ TEST(Impaired, SecondCopiesAndOvertakenOnesAreNotHeardByABestEffortReader) {
   Beaconing sender(OptionsIn(domain), kThree);
   ASSERT_TRUE(Eventually([&] {
     sender.Send();
-    listener.ears.Listen();
-    return listener.ears.Beacons().size() >= 200;
+    listener.monitor.Listen();
+    return listener.monitor.Beacons().size() >= 200;
   }));
   std::uint32_t before = 0;
-  for (const ReceivedBeacon& received : listener.ears.Beacons()) {
+  for (const ReceivedBeacon& received : listener.monitor.Beacons()) {
     EXPECT_GT(received.beacon.seq, before);
     before = received.beacon.seq;
   }
-  EXPECT_GT(before, listener.ears.Beacons().size() + 10);  // the gaps
+  EXPECT_GT(before, listener.monitor.Beacons().size() + 10);  // the gaps
   EXPECT_GE(listener.Impaired().duplicated, 80U);
   EXPECT_GE(listener.Impaired().held_back, 20U);
   EXPECT_GE(listener.Impaired().reordered, 20U);
 }
 
 // One corrupted sequence number that the library accepts makes a best-effort reader permanently
-// deaf to the writer: hence one sender after the other.
+// all_lost to the writer: hence one sender after the other.
 TEST(Impaired, SpoiltBeaconsAreHeardAsSpoiltAndEverySoundOneIsTrue) {
   const DomainLock domain;
   Listener listener(domain, {{.from = ImpairedSender::kVehicles, .corrupt = 0.3}});
-  std::size_t spoilt = 0;
+  std::size_t corrupted = 0;
   std::size_t sound = 0;
-  for (int life = 0; life < 60 && (spoilt < 10 || sound < 50); ++life) {
+  for (int life = 0; life < 60 && (corrupted < 10 || sound < 50); ++life) {
     Beaconing sender(OptionsIn(domain), kThree);
     Repeat(milliseconds(400), [&] {
       sender.Send();
-      listener.ears.Forget();
-      listener.ears.Listen();
-      for (const ReceivedBeacon& received : listener.ears.Beacons()) {
+      listener.monitor.Forget();
+      listener.monitor.Listen();
+      for (const ReceivedBeacon& received : listener.monitor.Beacons()) {
         if (!received.crc_valid || !received.name_valid) {
-          ++spoilt;
+          ++corrupted;
           continue;
         }
         ++sound;
@@ -162,9 +163,9 @@ TEST(Impaired, SpoiltBeaconsAreHeardAsSpoiltAndEverySoundOneIsTrue) {
       }
     });
   }
-  EXPECT_GE(spoilt, 10U);
+  EXPECT_GE(corrupted, 10U);
   EXPECT_GE(sound, 50U);
-  EXPECT_GE(listener.Impaired().corrupted, spoilt);
+  EXPECT_GE(listener.Impaired().corrupted, corrupted);
 }
 
 // Discovery traffic too. Some are never found, as above; ghosts may appear; nothing crashes.
@@ -174,12 +175,12 @@ TEST(Impaired, SpoiltDiscoveryIsSurvived) {
   int heard = 0;
   for (int life = 0; life < 20 && (heard < 3 || listener.Impaired().corrupted < 20); ++life) {
     Beaconing sender(OptionsIn(domain), kThree);
-    listener.ears.Forget();
+    listener.monitor.Forget();
     Repeat(milliseconds(500), [&] {
       sender.Send();
-      listener.ears.Listen();
+      listener.monitor.Listen();
     });
-    heard += listener.ears.Heard().contains(kThree) ? 1 : 0;
+    heard += listener.monitor.Heard().contains(kThree) ? 1 : 0;
   }
   EXPECT_GE(heard, 3);
   EXPECT_GE(listener.Impaired().corrupted, 20U);
@@ -200,14 +201,14 @@ TEST(Impaired, FromOneVehicleOnlyHearsTheOthers) {
   ASSERT_TRUE(Eventually([&] {
     three.Send();
     four.Send();
-    listener.ears.Listen();
-    spared.ears.Listen();
+    listener.monitor.Listen();
+    spared.monitor.Listen();
     // Dropped senders are known by name once discovery has announced them: how many are before
     // varies.
-    return listener.ears.Beacons().size() >= 50 && listener.Impaired().dropped_loss >= 20 &&
-           spared.ears.Heard().contains(kThree);
+    return listener.monitor.Beacons().size() >= 50 && listener.Impaired().dropped_loss >= 20 &&
+           spared.monitor.Heard().contains(kThree);
   }));
-  EXPECT_THAT(listener.ears.Heard(), ::testing::ElementsAre(kFour));
+  EXPECT_THAT(listener.monitor.Heard(), ::testing::ElementsAre(kFour));
   EXPECT_EQ(spared.Impaired().Dropped(), 0U);
 }
 
@@ -230,11 +231,11 @@ TEST(Impaired, InABlackoutAfterTheStartHearsNothingAndThenAgain) {
   link::WorldLink world(OptionsIn(domain));
   const auto turn = [&] {
     sender.Send();
-    listener.ears.Listen();
+    listener.monitor.Listen();
   };
   ASSERT_TRUE(Eventually([&] {
     turn();
-    return listener.ears.Beacons().size() >= 10;
+    return listener.monitor.Beacons().size() >= 10;
   }));
   EXPECT_EQ(listener.Impaired().dropped_blackout, 0U);
 
@@ -243,12 +244,12 @@ TEST(Impaired, InABlackoutAfterTheStartHearsNothingAndThenAgain) {
     turn();
     return listener.Impaired().dropped_blackout > 0;
   }));
-  listener.ears.Forget();
+  listener.monitor.Forget();
   Repeat(milliseconds(300), turn);
-  EXPECT_TRUE(listener.ears.Heard().empty());
+  EXPECT_TRUE(listener.monitor.Heard().empty());
   EXPECT_TRUE(Eventually([&] {
     turn();
-    return listener.ears.Heard().contains(kThree);
+    return listener.monitor.Heard().contains(kThree);
   }));
 }
 
@@ -263,11 +264,11 @@ TEST(Impaired, ByARuleThatHoldsForATimeHearsNothingThenAndAgainAfterIt) {
   link::WorldLink world(OptionsIn(domain));
   const auto turn = [&] {
     sender.Send();
-    listener.ears.Listen();
+    listener.monitor.Listen();
   };
   ASSERT_TRUE(Eventually([&] {
     turn();
-    return listener.ears.Beacons().size() >= 10;
+    return listener.monitor.Beacons().size() >= 10;
   }));
   EXPECT_EQ(listener.Impaired().dropped_loss, 0U);
   StartRun(&world, &listener);
@@ -275,12 +276,12 @@ TEST(Impaired, ByARuleThatHoldsForATimeHearsNothingThenAndAgainAfterIt) {
     turn();
     return listener.Impaired().dropped_loss > 0;
   }));
-  listener.ears.Forget();
+  listener.monitor.Forget();
   Repeat(milliseconds(300), turn);
-  EXPECT_TRUE(listener.ears.Heard().empty());
+  EXPECT_TRUE(listener.monitor.Heard().empty());
   EXPECT_TRUE(Eventually([&] {
     turn();
-    return listener.ears.Heard().contains(kThree);
+    return listener.monitor.Heard().contains(kThree);
   }));
   EXPECT_EQ(listener.Impaired().Dropped(), listener.Impaired().dropped_loss);
 }

@@ -13,7 +13,7 @@ namespace giveway::test {
 namespace {
 
 JoinRequest Of(std::uint32_t session, bool leaving = false) {
-  return {.session = {session, 1, 2, 3}, .wanted = kNobody, .leaving = leaving};
+  return {.session = {session, 1, 2, 3}, .wanted = kNoVehicle, .leaving = leaving};
 }
 
 // Issue 21, number 12.

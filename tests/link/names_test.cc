@@ -21,10 +21,10 @@ TEST(NamedVehicle, IsTheNumberAfterTheLastSlash) {
 TEST(NamedVehicle, IsNobodyForAnythingElse) {
   for (const char* name : {"", "v", "v0", "v07", "v-1", "v+1", "v1 ", "v1x", "w1", "7", "v*",
                            "main/*", "*", "v4294967296", "main/v1/x", "world"}) {
-    EXPECT_EQ(NamedVehicle({name}), kNobody) << name;
+    EXPECT_EQ(NamedVehicle({name}), kNoVehicle) << name;
   }
-  EXPECT_EQ(NamedVehicle({}), kNobody);
-  EXPECT_EQ(NamedVehicle({"v1", "v2"}), kNobody);
+  EXPECT_EQ(NamedVehicle({}), kNoVehicle);
+  EXPECT_EQ(NamedVehicle({"v1", "v2"}), kNoVehicle);
 }
 
 TEST(BeaconArea, IsThatOfAWriterOfBeaconsAndOfNoOther) {

@@ -58,19 +58,19 @@ class PeerEventsTest : public ::testing::Test {
     }
     events_.on_requested_deadline_missed(nullptr, status);
   }
-  std::vector<QosEvent> Told(SteadyTime now = SteadyTime{0}) {
-    std::vector<QosEvent> told;
+  std::vector<QosEvent> Emitted(SteadyTime now = SteadyTime{0}) {
+    std::vector<QosEvent> emitted;
     const ReaderNews news = events_.Take();
     names_.Update();
-    peers_.Translate(news, now, told);
-    return told;
+    peers_.Translate(news, now, emitted);
+    return emitted;
   }
   // Peers that the own clock finds to have missed a deadline of 150 ms.
   std::vector<VehicleId> MissedAt(int ms) {
-    std::vector<QosEvent> told;
-    peers_.Watch(std::chrono::milliseconds(ms), std::chrono::milliseconds(150), told);
+    std::vector<QosEvent> emitted;
+    peers_.Watch(std::chrono::milliseconds(ms), std::chrono::milliseconds(150), emitted);
     std::vector<VehicleId> missed;
-    for (const QosEvent& event : told) missed.push_back(event.vehicle);
+    for (const QosEvent& event : emitted) missed.push_back(event.vehicle);
     return missed;
   }
   void Hear(std::uint32_t vehicle, int ms) {
@@ -80,12 +80,12 @@ class PeerEventsTest : public ::testing::Test {
   std::uint32_t Dropped() const { return events_.Dropped(); }
   // The vehicles that are reported as incompatible.
   std::vector<VehicleId> Unfit() {
-    std::vector<QosEvent> told;
+    std::vector<QosEvent> emitted;
     const ReaderNews events = events_.Take();
     names_.Update();
-    peers_.Translate(events, SteadyTime{0}, told);
+    peers_.Translate(events, SteadyTime{0}, emitted);
     std::vector<VehicleId> unfit;
-    for (const QosEvent& event : told) {
+    for (const QosEvent& event : emitted) {
       if (event.kind == QosEventKind::kIncompatibleQos) unfit.push_back(event.vehicle);
     }
     return unfit;
@@ -126,13 +126,13 @@ TEST_F(PeerEventsTest, NamesEachUnmatchedWriterOnceWhenTheThreadFoundNoneOfThem)
   Refuse();
   Refuse();
   Refuse();
-  EXPECT_THAT(Unfit(), ElementsAre(VehicleId{7}, VehicleId{5}, kNobody));
+  EXPECT_THAT(Unfit(), ElementsAre(VehicleId{7}, VehicleId{5}, kNoVehicle));
 }
 
 TEST_F(PeerEventsTest, NamesNobodyForAWriterOfAnotherArea) {
   Find(1, "north/v5");
   Refuse();
-  EXPECT_THAT(Unfit(), ElementsAre(kNobody));
+  EXPECT_THAT(Unfit(), ElementsAre(kNoVehicle));
 }
 
 // Issue 21, number 8: a loop hung for 5 s, 96 ids that are gone, three peers that join.
@@ -144,7 +144,7 @@ TEST_F(PeerEventsTest, RepeatedMissesOfTheDepartedCrowdOutNoMatch) {
     Find(id, ("main/v" + std::to_string(id)).c_str());
     Match(id);
   }
-  EXPECT_THAT(Told(), ::testing::SizeIs(3));
+  EXPECT_THAT(Emitted(), ::testing::SizeIs(3));
   EXPECT_EQ(Peers().MatchedWriters(), 3U);
   EXPECT_EQ(Dropped(), 0U);
 }
@@ -153,7 +153,7 @@ TEST_F(PeerEventsTest, AMissOfEachOfAThousandClaimedIdsCrowdsOutNoMatch) {
   for (std::uint32_t id = 100; id < 5000; ++id) Miss(id);
   Find(1, "main/v1");
   Match(1);
-  EXPECT_THAT(Told(), ::testing::SizeIs(1));
+  EXPECT_THAT(Emitted(), ::testing::SizeIs(1));
   EXPECT_TRUE(Peers().IsMatched(VehicleId{1}));
 }
 
@@ -161,7 +161,7 @@ TEST_F(PeerEventsTest, AfterEventsWereDroppedWhoIsMatchedIsReadAgain) {
   for (std::uint8_t id = 1; id <= 3; ++id) Find(id, ("main/v" + std::to_string(id)).c_str());
   Match(1);
   Match(2);
-  Told();
+  Emitted();
   for (int i = 0; i < 2000; ++i) {
     Live(2, false);
     Live(2, true);
@@ -170,14 +170,14 @@ TEST_F(PeerEventsTest, AfterEventsWereDroppedWhoIsMatchedIsReadAgain) {
   Unmatch(1);
   Match(3);
   ASSERT_GT(Dropped(), 0U);
-  const std::vector<QosEvent> told = Told();
+  const std::vector<QosEvent> emitted = Emitted();
   EXPECT_FALSE(Peers().IsMatched(VehicleId{1}));
   EXPECT_TRUE(Peers().IsMatched(VehicleId{2}));
   EXPECT_TRUE(Peers().IsMatched(VehicleId{3}));
   EXPECT_EQ(Peers().MatchedWriters(), 2U);
-  ASSERT_GE(told.size(), 3U);
+  ASSERT_GE(emitted.size(), 3U);
   const auto last = [&](QosEventKind kind) {
-    return std::find_if(told.rbegin(), told.rend(),
+    return std::find_if(emitted.rbegin(), emitted.rend(),
                         [kind](const QosEvent& event) { return event.kind == kind; })
         ->vehicle;
   };
@@ -185,31 +185,31 @@ TEST_F(PeerEventsTest, AfterEventsWereDroppedWhoIsMatchedIsReadAgain) {
   EXPECT_EQ(last(QosEventKind::kUnmatched), VehicleId{1});
   EXPECT_EQ(last(QosEventKind::kLivelinessLost), VehicleId{2});
   // Once: from then on the events are whole again.
-  EXPECT_THAT(Told(), ::testing::IsEmpty());
+  EXPECT_THAT(Emitted(), ::testing::IsEmpty());
   Unmatch(2);
-  EXPECT_THAT(Told(), ::testing::SizeIs(1));
+  EXPECT_THAT(Emitted(), ::testing::SizeIs(1));
 }
 
 // Issue 21, number 22: the library gives up watching the deadlines of a reader.
 TEST_F(PeerEventsTest, AMissIsToldByTheOwnClockWhereTheLibrarySaysNothing) {
   Find(1, "main/v5");
   Match(1);
-  Told();
+  Emitted();
   EXPECT_THAT(MissedAt(10'000), ::testing::IsEmpty()) << "never heard yet";
   Hear(5, 10'000);
   EXPECT_THAT(MissedAt(10'150), ::testing::IsEmpty());
   EXPECT_THAT(MissedAt(10'151), ElementsAre(VehicleId{5}));
   Miss(5);
-  EXPECT_THAT(Told(), ::testing::IsEmpty()) << "an edge, whichever detects it first";
+  EXPECT_THAT(Emitted(), ::testing::IsEmpty()) << "an edge, whichever detects it first";
   EXPECT_THAT(MissedAt(11'000), ::testing::IsEmpty());
   Hear(5, 12'000);
   Miss(5);
-  EXPECT_THAT(Told(), ::testing::SizeIs(1));
+  EXPECT_THAT(Emitted(), ::testing::SizeIs(1));
   EXPECT_THAT(MissedAt(12'151), ::testing::IsEmpty());
   Hear(5, 13'000);
   EXPECT_THAT(MissedAt(13'151), ElementsAre(VehicleId{5}));
   Unmatch(1);
-  Told();
+  Emitted();
   EXPECT_THAT(MissedAt(20'000), ::testing::IsEmpty());
 }
 

@@ -14,8 +14,8 @@ using std::chrono::milliseconds;
 
 constexpr VehicleId kSeven{7};
 
-VehicleProfile Fitted() {
-  VehicleProfile profile;
+RobotModel Fitted() {
+  RobotModel profile;
   profile.pose_fix = {.every_s = 1, .sigma_m = 0.05};
   return profile;
 }
@@ -51,11 +51,11 @@ TEST(PoseFixTopic, IsWaitedForByTheStartWhereItIsFitted) {
   const DomainLock domain;
   link::WorldLink world(OptionsIn(domain));
   world.OpenVehicle(kSeven, Fitted());
-  world.OpenVehicle(VehicleId{8}, VehicleProfile{});
+  world.OpenVehicle(VehicleId{8}, RobotModel{});
   link::VehicleLink lacking(OptionsIn(domain));
   link::VehicleLink whole(OptionsIn(domain));
-  lacking.Open(kSeven, VehicleProfile{}, false);
-  whole.Open(VehicleId{8}, VehicleProfile{}, false);
+  lacking.Open(kSeven, RobotModel{}, false);
+  whole.Open(VehicleId{8}, RobotModel{}, false);
   EXPECT_TRUE(Eventually([&] { return world.IsMatched(VehicleId{8}); }));
   Repeat(milliseconds(200), [&] { EXPECT_FALSE(world.IsMatched(kSeven)); });
 }

@@ -6,8 +6,8 @@
 
 #include "services/link/fastdds/fastdds_version.h"
 #include "services/link/fastdds/library_log.h"
-#include "services/link/fastdds/profile_words.h"
-#include "services/qos/check.h"
+#include "services/link/fastdds/profile_spelling.h"
+#include "services/qos/profile_check.h"
 #include "services/qos/schema.h"
 
 namespace giveway::qos {
@@ -57,7 +57,8 @@ class Elements : public ::testing::Test {
   }
 
   static bool Loads(const std::string& profiles) {
-    const std::string text = link::InOwnWords("<dds><profiles>" + profiles + "</profiles></dds>");
+    const std::string text =
+        link::InOwnSpelling("<dds><profiles>" + profiles + "</profiles></dds>");
     return Ok(link::dds::DomainParticipantFactory::get_instance()->load_XML_profiles_string(
         text.data(), text.size()));
   }

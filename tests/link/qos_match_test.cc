@@ -8,7 +8,7 @@
 
 #include "services/link/fastdds/profiles.h"
 #include "services/link/participant.h"
-#include "services/qos/check.h"
+#include "services/qos/profile_check.h"
 #include "services/qos/request_offered.h"
 #include "services/qos/xml_tree.h"
 #include "tests/link/fleet.h"
@@ -94,7 +94,7 @@ bool Refuses(const std::string& consequence) {
 enum class Seen { kNothing, kMatch, kMismatch };
 
 // Both outcomes show themselves: neither is concluded from silence.
-Seen Look(const MadePair& pair) {
+Seen Observe(const MadePair& pair) {
   dds::PublicationMatchedStatus written;
   dds::SubscriptionMatchedStatus read;
   pair.writer->get_publication_matched_status(written);
@@ -148,11 +148,11 @@ class QosPrediction : public ::testing::Test {
     EXPECT_TRUE(Eventually(
         [&] {
           return std::ranges::none_of(
-              pairs, [](const MadePair& pair) { return Look(pair) == Seen::kNothing; });
+              pairs, [](const MadePair& pair) { return Observe(pair) == Seen::kNothing; });
         },
         std::chrono::seconds(60)));
     for (const MadePair& pair : pairs) {
-      EXPECT_EQ(Look(pair), pair.offered_enough ? Seen::kMatch : Seen::kMismatch) << pair.name;
+      EXPECT_EQ(Observe(pair), pair.offered_enough ? Seen::kMatch : Seen::kMismatch) << pair.name;
     }
   }
 

@@ -8,8 +8,8 @@
 #include <iterator>
 #include <set>
 
-#include "services/fleetctl/qos/qos_apart.h"
 #include "services/fleetctl/qos/qos_effective.h"
+#include "services/fleetctl/qos/qos_in_child.h"
 #include "services/qos/deployment.h"
 #include "services/qos/xml_tree.h"
 
@@ -26,7 +26,7 @@ std::vector<EffectiveEndpoint> EffectiveOf(const fs::path& file) {
   link::LinkOptions options;
   options.domain = 1;
   options.qos = {file, text};
-  return EffectiveQos(ResolveQosApart(options), qos::ReadProfiles(*read.root, file));
+  return EffectiveQos(ResolveQosInChild(options), qos::ReadProfiles(*read.root, file));
 }
 
 // What participant.cc adds to a profile; everything else is the file's or the library's.

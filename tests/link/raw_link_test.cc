@@ -158,7 +158,7 @@ TEST(RawLink, KnowsEveryTopicButThoseOfOperators) {
 TEST(RawLink, HearsThePoseFixesOfAVehicle) {
   const DomainLock domain;
   link::WorldLink world(OptionsIn(domain));
-  VehicleProfile profile;
+  RobotModel profile;
   profile.pose_fix.every_s = 0.1;
   ASSERT_TRUE(profile.pose_fix.Fitted());
   world.OpenVehicle(VehicleId{7}, profile);

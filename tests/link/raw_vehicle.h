@@ -48,7 +48,7 @@ class RawListener {
       ++raw_misses_of_[VehicleId{link::KeyOf(event.handle)}];
     }
     names_.Update();
-    peers_.Translate(news, SteadyTime{0}, told_);
+    peers_.Translate(news, SteadyTime{0}, qos_events_);
   }
   // One turn of VehicleLink::Take, but that no clock watches.
   void Listen() {
@@ -69,10 +69,11 @@ class RawListener {
     const auto found = raw_misses_of_.find(vehicle);
     return found == raw_misses_of_.end() ? 0 : found->second;
   }
-  std::size_t Told() const { return told_.size(); }
-  std::size_t Told(QosEventKind kind) const {
-    return static_cast<std::size_t>(std::count_if(
-        told_.begin(), told_.end(), [kind](const QosEvent& event) { return event.kind == kind; }));
+  std::size_t EventCount() const { return qos_events_.size(); }
+  std::size_t EventCount(QosEventKind kind) const {
+    return static_cast<std::size_t>(
+        std::count_if(qos_events_.begin(), qos_events_.end(),
+                      [kind](const QosEvent& event) { return event.kind == kind; }));
   }
   std::uint32_t Matched() const { return peers_.MatchedWriters(); }
   std::uint32_t Superseded() { return inbox_.Superseded(); }
@@ -87,7 +88,7 @@ class RawListener {
   link::BeaconInbox inbox_;
   link::PeerEvents peers_;
   std::vector<ReceivedBeacon> beacons_;
-  std::vector<QosEvent> told_;
+  std::vector<QosEvent> qos_events_;
   std::size_t heard_ = 0;
   std::set<VehicleId> vehicles_;
   std::size_t raw_misses_ = 0;

@@ -55,13 +55,13 @@ std::optional<JoinRequest> AwaitJoin(link::WorldLink& world) {
 
 // Joins as any vehicle, is given 7 and opens.
 void JoinAsSeven(link::VehicleLink& vehicle, link::WorldLink& world) {
-  vehicle.SendJoin({kSession, kNobody});
+  vehicle.SendJoin({kSession, kNoVehicle});
   const auto request = AwaitJoin(world);
   ASSERT_TRUE(request.has_value());
   world.SendRoster(Accepted(request->session, kSeven));
-  world.OpenVehicle(kSeven, VehicleProfile{});
+  world.OpenVehicle(kSeven, RobotModel{});
   ASSERT_TRUE(Eventually([&] { return vehicle.TakeRoster(kSession).has_value(); }));
-  vehicle.Open(kSeven, VehicleProfile{}, false);
+  vehicle.Open(kSeven, RobotModel{}, false);
 }
 
 TEST(Rejoining, ASecondWorldFindsTheVehicleUnderItsIdAndIsHeard) {
@@ -80,17 +80,17 @@ TEST(Rejoining, ASecondWorldFindsTheVehicleUnderItsIdAndIsHeard) {
   EXPECT_EQ(request->wanted, kSeven);
   EXPECT_FALSE(request->leaving);
   second.SendRoster(Accepted(kSession, kSeven, 2));
-  second.OpenVehicle(kSeven, VehicleProfile{});
-  std::optional<RosterEntry> told;
+  second.OpenVehicle(kSeven, RobotModel{});
+  std::optional<RosterEntry> received;
   bool scan_came = false;
   ASSERT_TRUE(Eventually([&] {
     second.SendScan(ScanOf(2));
     const Inputs inputs = vehicle.Take(SteadyTime{0}).inputs;
-    if (inputs.roster) told = inputs.roster;
+    if (inputs.roster) received = inputs.roster;
     scan_came |= inputs.scan.has_value();
-    return told && scan_came;
+    return received && scan_came;
   }));
-  EXPECT_EQ(told->epoch, WorldEpoch{2});
+  EXPECT_EQ(received->epoch, WorldEpoch{2});
   const auto took = std::chrono::steady_clock::now() - begin;
   // Usually a fifth of a second; a first match that is missed waits for the next announcement.
   EXPECT_LT(took, seconds(2));
@@ -107,29 +107,29 @@ TEST(Rejoining, TheEntryThatLetAVehicleInIsNotToldAgainAndALaterOneOnce) {
   ended.run_state = RunState::kEnded;
   world.SendRoster(Accepted({9, 9, 9, 9}, VehicleId{9}));
   world.SendRoster(ended);
-  int told = 0;
+  int received = 0;
   const auto take = [&] {
     if (const auto entry = vehicle.Take(SteadyTime{0}).inputs.roster) {
-      ++told;
+      ++received;
       EXPECT_EQ(entry->run_state, RunState::kEnded);
     }
-    return told > 0;
+    return received > 0;
   };
   ASSERT_TRUE(Eventually(take));
   Repeat(milliseconds(200), take);
-  EXPECT_EQ(told, 1);
+  EXPECT_EQ(received, 1);
   EXPECT_TRUE(vehicle.TakeRoster(kSession).has_value()) << "Take and TakeRoster each report it";
 }
 
 // The entry that the vehicle receives meanwhile.
-std::optional<RosterEntry> ToldWithin(milliseconds duration, link::VehicleLink& vehicle,
-                                      const std::function<void()>& meanwhile) {
-  std::optional<RosterEntry> told;
+std::optional<RosterEntry> EntryWithin(milliseconds duration, link::VehicleLink& vehicle,
+                                       const std::function<void()>& meanwhile) {
+  std::optional<RosterEntry> received;
   Repeat(duration, [&] {
     meanwhile();
-    if (const auto entry = vehicle.Take(SteadyTime{0}).inputs.roster) told = entry;
+    if (const auto entry = vehicle.Take(SteadyTime{0}).inputs.roster) received = entry;
   });
-  return told;
+  return received;
 }
 
 TEST(Rejoining, ASecondWorldIsNotBelievedWhileTheFirstLivesAndIsOnceThatHasLeft) {
@@ -141,15 +141,15 @@ TEST(Rejoining, ASecondWorldIsNotBelievedWhileTheFirstLivesAndIsOnceThatHasLeft)
   ASSERT_TRUE(AwaitJoin(second).has_value());
   second.SendRoster(Accepted(kSession, kSeven, 2));
   const auto speak = [&] { first->SendScan(ScanOf(1)); };
-  EXPECT_FALSE(ToldWithin(milliseconds(2500), vehicle, speak).has_value());
+  EXPECT_FALSE(EntryWithin(milliseconds(2500), vehicle, speak).has_value());
   EXPECT_EQ(vehicle.Counters().refused.old_world_entries, 1U);
   first.reset();
-  std::optional<RosterEntry> told;
+  std::optional<RosterEntry> received;
   ASSERT_TRUE(Eventually([&] {
-    told = vehicle.Take(SteadyTime{0}).inputs.roster;
-    return told.has_value();
+    received = vehicle.Take(SteadyTime{0}).inputs.roster;
+    return received.has_value();
   }));
-  EXPECT_EQ(told->epoch, WorldEpoch{2});
+  EXPECT_EQ(received->epoch, WorldEpoch{2});
 }
 
 TEST(Rejoining, AWorldThatFellSilentIsFollowedByTheNextAndNoLongerBelieved) {
@@ -159,14 +159,14 @@ TEST(Rejoining, AWorldThatFellSilentIsFollowedByTheNextAndNoLongerBelieved) {
   JoinAsSeven(vehicle, first);
   link::WorldLink second(OptionsIn(domain));
   ASSERT_TRUE(AwaitJoin(second).has_value());
-  second.OpenVehicle(kSeven, VehicleProfile{});
+  second.OpenVehicle(kSeven, RobotModel{});
   second.SendRoster(Accepted(kSession, kSeven, 2));
   const auto speak = [&] { second.SendScan(ScanOf(2)); };
-  const auto told = ToldWithin(milliseconds(2500), vehicle, speak);
-  ASSERT_TRUE(told.has_value());
-  EXPECT_EQ(told->epoch, WorldEpoch{2});
+  const auto received = EntryWithin(milliseconds(2500), vehicle, speak);
+  ASSERT_TRUE(received.has_value());
+  EXPECT_EQ(received->epoch, WorldEpoch{2});
   first.SendRoster(Accepted(kSession, kSeven, 3));
-  EXPECT_FALSE(ToldWithin(milliseconds(1500), vehicle, speak).has_value());
+  EXPECT_FALSE(EntryWithin(milliseconds(1500), vehicle, speak).has_value());
 }
 
 TEST(Rejoining, AnEntryThatCannotBeBelievedIsRefusedByFieldAndChangesNothing) {
@@ -238,16 +238,16 @@ TEST(Leaving, AClosedVehicleMayComeBackInTheSameSession) {
     ASSERT_TRUE(Eventually([&] { return world.IsMatched(kSeven); }));
     world.CloseVehicle(kSeven);
     EXPECT_FALSE(world.IsMatched(kSeven));
-    world.OpenVehicle(kSeven, VehicleProfile{});
+    world.OpenVehicle(kSeven, RobotModel{});
     world.SendRoster(Accepted(kSession, kSeven, epoch));
-    bool told = false;
+    bool received = false;
     bool scanned = false;
     EXPECT_TRUE(Eventually([&] {
       world.SendScan(ScanOf(epoch));
       const Inputs inputs = vehicle.Take(SteadyTime{0}).inputs;
-      told |= inputs.roster && inputs.roster->epoch == WorldEpoch{epoch};
+      received |= inputs.roster && inputs.roster->epoch == WorldEpoch{epoch};
       scanned |= inputs.scan && inputs.scan->epoch == WorldEpoch{epoch};
-      return told && scanned;
+      return received && scanned;
     })) << epoch;
   }
 }
@@ -299,7 +299,7 @@ TEST(Leaving, AndComingAThousandTimesLeavesNothingBehind) {
   const auto come_and_go = [&](std::uint32_t times) {
     for (std::uint32_t i = 1; i <= times; ++i) {
       const VehicleId vehicle{i % 5 + 1};
-      VehicleProfile profile;
+      RobotModel profile;
       profile.radar = profile.lidar = profile.camera = true;
       world.OpenVehicle(vehicle, profile);
       world.SendRoster(Accepted({times, i, 0, 0}, vehicle));

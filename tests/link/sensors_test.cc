@@ -21,8 +21,8 @@ using ::testing::Field;
 constexpr VehicleId kSeven{7};
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-VehicleProfile Fitted(bool radar, bool lidar, bool camera) {
-  VehicleProfile profile;
+RobotModel Fitted(bool radar, bool lidar, bool camera) {
+  RobotModel profile;
   profile.radar = radar;
   profile.lidar = lidar;
   profile.camera = camera;
@@ -272,7 +272,7 @@ TEST(Signals, ReachEveryVehicleAndTheObserver) {
   std::vector<std::unique_ptr<link::VehicleLink>> fleet;
   for (std::uint32_t id = 1; id <= 5; ++id) {
     fleet.push_back(std::make_unique<link::VehicleLink>(OptionsIn(domain)));
-    fleet.back()->Open(VehicleId{id}, VehicleProfile{}, true);
+    fleet.back()->Open(VehicleId{id}, RobotModel{}, true);
   }
   std::vector<std::set<std::uint32_t>> heard(fleet.size());
   std::set<std::uint32_t> observed;

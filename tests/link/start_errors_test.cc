@@ -43,7 +43,7 @@ using ::testing::ThrowsMessage;
 }
 
 // Its exit code is the depth that the library reads.
-[[noreturn]] void TellDepth(const link::LinkOptions& options, const std::string& profile) {
+[[noreturn]] void ExitWithDepth(const link::LinkOptions& options, const std::string& profile) {
   for (const link::ResolvedEntity& entity : link::ResolveQos(options)) {
     if (entity.profile != profile) continue;
     for (const link::ResolvedValue& value : entity.values) {
@@ -146,7 +146,7 @@ TEST_F(StartErrors, AreFoundByATrialOfTheSet) {
 TEST_F(StartErrors, AreNoneForNumbersThatTheRulesRead) {
   for (const char* four : {" 4 ", "\n  4\n", "+4", "4.0", "0x4", "4ms"}) {
     options_.qos = DefaultWith("<depth>1<", std::string("<depth>") + four + "<");
-    EXPECT_EXIT(TellDepth(options_, "fleet_beacon_writer"), ExitedWithCode(4), "^$") << four;
+    EXPECT_EXIT(ExitWithDepth(options_, "fleet_beacon_writer"), ExitedWithCode(4), "^$") << four;
   }
 }
 

@@ -199,7 +199,7 @@ TEST_F(Strangers, DoNotAnswerForAVehicle) {
 TEST_F(Strangers, ThatOrderInTheNamesOfManyAreCounted) {
   Unnamed listener;
   link::Participant flood(OptionsIn(domain_), "flood", listener);
-  auto orders = flood.MakeWriter<wire::Order>(link::VehiclePartition(kNobody));
+  auto orders = flood.MakeWriter<wire::Order>(link::VehiclePartition(kNoVehicle));
   ASSERT_TRUE(Eventually([&] { return orders.HasReader(); }));
   for (std::uint32_t id = 1000; id < 1020; ++id) {
     wire::Order order;
@@ -244,7 +244,7 @@ TEST(Admin, AVehicleThatTakesNoOrdersCannotBeReached) {
   chief.Seek(VehicleId{8});
   ASSERT_TRUE(Eventually([&] { return chief.Reaches(VehicleId{8}); }));
   Repeat(milliseconds(1500), [&] { EXPECT_FALSE(chief.Reaches(kSeven)); });
-  EXPECT_TRUE(deaf.TakeOrders().empty());
+  EXPECT_TRUE(deaf.TakeAdminRequests().empty());
 }
 
 // Issue 25: a hundred thousand took 34 MB, and a fifth of a processor after the writer was gone.
@@ -262,7 +262,8 @@ TEST_F(Strangers, OfAWriterThatNamesThousandsOfIdsAFewAreHeard) {
     }
     EXPECT_TRUE(world_.TakeCommands().empty());
   };
-  // Of a flood a reader hears what its queue holds when it looks: the flood goes on until it is heard.
+  // Of a flood a reader hears what its queue holds when it looks: the flood goes on until it is
+  // heard.
   std::uint32_t id = 1000;
   const auto name_some_more = [&] {
     for (int more = 0; more < 32; ++more, ++id) {

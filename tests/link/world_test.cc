@@ -101,7 +101,7 @@ TEST(Joining, IsAnsweredBySessionAndARefusalLeavesTheOwnersEntryAlone) {
 TEST(Joining, BeforeTheWorldIsThereIsHeardWhenItComes) {
   const DomainLock domain;
   link::VehicleLink early(OptionsIn(domain));
-  early.SendJoin({{1, 2, 3, 4}, kNobody});
+  early.SendJoin({{1, 2, 3, 4}, kNoVehicle});
   link::WorldLink world(OptionsIn(domain));
   EXPECT_TRUE(Eventually([&] { return world.TakeJoins().size() == 1; }));
 }

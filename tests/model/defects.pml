@@ -2,18 +2,18 @@
  * What SPIN must find stands in runs.txt. */
 
 /* The order, as it should be. */
-#define ComesFirst(waited_a, a_, waited_b, b_) \
+#define PrecedesByKey(waited_a, a_, waited_b, b_) \
   ((waited_a) > (waited_b) ||                  \
    ((waited_a) == (waited_b) && (fast[a_] > fast[b_] || (fast[a_] == fast[b_] && (a_) < (b_)))))
 
 #ifdef PRIORITY_REVERSED
-#define GoesFirst(waited_a, a_, waited_b, b_) (!ComesFirst(waited_a, a_, waited_b, b_))
+#define HasPriority(waited_a, a_, waited_b, b_) (!PrecedesByKey(waited_a, a_, waited_b, b_))
 #elif defined(TIE_NOT_BROKEN)
-#define GoesFirst(waited_a, a_, waited_b, b_) \
-  (ComesFirst(waited_a, a_, waited_b, b_) ||  \
+#define HasPriority(waited_a, a_, waited_b, b_) \
+  (PrecedesByKey(waited_a, a_, waited_b, b_) ||  \
    ((waited_a) == (waited_b) && fast[a_] == fast[b_]))
 #else
-#define GoesFirst(waited_a, a_, waited_b, b_) ComesFirst(waited_a, a_, waited_b, b_)
+#define HasPriority(waited_a, a_, waited_b, b_) PrecedesByKey(waited_a, a_, waited_b, b_)
 #endif
 
 #ifdef LATCH_DROPPED

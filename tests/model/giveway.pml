@@ -5,15 +5,15 @@
  *
  *   here            there
  *   Hear            PeerTable::Take, IsFresh, IsLost                            peer_table.cc
- *   ComesFirst      ComesFirst, GoesFirst: by both keys as published            beacon.h
- *   Look            LookAt, CrossingWith: conflict, grants, goes_first          look.cc
+ *   PrecedesByKey   PrecedesByKey, HasPriority: by both keys as published       beacon.h
+ *   Look            RelatePeers, CrossingWith: conflict, grants, has_priority   peer_relation.cc
  *   IsThroughFirst  IsThroughFirst                                              encounter.cc
  *   UpdateFresh     UpdateEncounters, Begins, IsOver, Holds, SecondMustStop     encounter.cc
  *   MayCross        MayCrossBefore                                              encounter.cc
  *   UpdateLost      UpdateLost, Holds of a lost peer                            encounter.cc
- *   Claimed         ClaimOf, FreeBefore, KeepClear                              claim.cc, rules.cc
- *   Listen          ListenForMovers, NearestEcho; the rule Deaf                 listen.cc, rules.cc
- *   Remember, Say   KeepOrder, Remember, GivesWayTo, CanGiveWay, Say            waiting.cc, vehicle.cc, decide.cc
+ *   Claimed         ClaimOf, FreeBefore, KeepClear                              claim.cc, decision_rules.cc
+ *   Listen          DetectMovers, NearestEcho; the rule Deaf                    mover_watch.cc, decision_rules.cc
+ *   Remember, Say   KeepOrder, Remember, GivesWayTo, CanGiveWay, MakeBeacon     waiting.cc, vehicle.cc, decide.cc
  *   Move            World::Step; of the dead: watchdog, removal of the body     sim_world
  *
  * Time is ticks, all vehicles step in each. In tick k a brain knows any one of the beacons of ticks
@@ -116,7 +116,7 @@ bool rests[N];        /* this tick: no encounter, no waiting: what it waited is 
 /* Scratch: heard lives from Hear to the end of Decide, the rest within one step; 0 between. */
 byte heard[N];
 byte v, w, j, p, a;
-bool conflict, goes_first, standing, grants, through;
+bool conflict, has_priority, standing, grants, through;
 bool clear, deaf, waits, met, meets_any, held;
 
 /* The safety properties. SPIN names the one that is broken. */
@@ -133,9 +133,9 @@ inline Look(i) {
   p = Said(j, heard[j]).place;
   a = TrustedAge(heard[j]);
   standing = p == GATE;
-  goes_first = GoesFirst(Said(j, heard[j]).waited, j, order[i], i);
-  conflict = IsConflict(p) && !(standing && !goes_first);
-  grants = Grants(Said(j, heard[j]).gives_way_to == i + 1 || (standing && !goes_first));
+  has_priority = HasPriority(Said(j, heard[j]).waited, j, order[i], i);
+  conflict = IsConflict(p) && !(standing && !has_priority);
+  grants = Grants(Said(j, heard[j]).gives_way_to == i + 1 || (standing && !has_priority));
   through = !conflict || (IsNear(place[i]) && IsThroughFirst(place[i], p, a))
 }
 
@@ -152,18 +152,18 @@ inline Look(i) {
 inline UpdateFresh(i) {
   Look(i);
   released[AT(i, j)] = false;
-  let_pass[i] = let_pass[i] || (waited[i] > 0 && meets[AT(i, j)] && goes_first && p == FAR);
+  let_pass[i] = let_pass[i] || (waited[i] > 0 && meets[AT(i, j)] && has_priority && p == FAR);
   meets[AT(i, j)] = (meets[AT(i, j)] -> p != FAR : conflict && !through);
   stood[AT(i, j)] = meets[AT(i, j)] && !conflict;
   held = holds[AT(i, j)];
   holds[AT(i, j)] = meets[AT(i, j)] && IsNear(place[i]) &&
-      (goes_first -> !MayCross(i, j) &&
+      (has_priority -> !MayCross(i, j) &&
                          (Latched(holds[AT(i, j)]) ||
                           (conflict && SecondMustStop(IsHeardBody(p) || place[i] == LAST)))
                    : !(grants || through) && (Latched(holds[AT(i, j)]) || place[i] == LAST));
   CheckLatch(i);
   if
-  :: meets[AT(i, j)] && goes_first && !(place[i] == LAST && MayCross(i, j)) &&
+  :: meets[AT(i, j)] && has_priority && !(place[i] == LAST && MayCross(i, j)) &&
      (gives_way[i] == NOBODY || p >= Said(gives_way[i] - 1, heard[gives_way[i] - 1]).place) ->
      gives_way[i] = j + 1 /* the nearest */
   :: else
@@ -223,7 +223,7 @@ inline CheckOrder(i) {
     if
     :: CHECKS_AGREEMENT && j != i && place[i] == LAST && go[i] && IsFresh(heard[j]) ->
        out_of_order = IsNear(Said(j, heard[j]).place) && !MayCross(i, j) &&
-                      ComesFirst(Said(j, heard[j]).waited, j, order[i], i);
+                      PrecedesByKey(Said(j, heard[j]).waited, j, order[i], i);
        assert(!out_of_order)
     :: else
     fi
@@ -232,7 +232,7 @@ inline CheckOrder(i) {
 
 inline CheckLatch(i) {
   unlatched = CHECKS_AGREEMENT && held && !holds[AT(i, j)] && meets[AT(i, j)] && IsNear(place[i]) &&
-              (goes_first -> conflict && !MayCross(i, j) : !(grants || through));
+              (has_priority -> conflict && !MayCross(i, j) : !(grants || through));
   assert(!unlatched)
 }
 
@@ -257,7 +257,7 @@ inline Decide(i) {
     Remember(i);
     CheckOrder(i);
     for (j : 0 .. N - 1) { heard[j] = LOST }
-    j = 0; p = 0; a = 0; conflict = 0; goes_first = 0; standing = 0; grants = 0; through = 0;
+    j = 0; p = 0; a = 0; conflict = 0; has_priority = 0; standing = 0; grants = 0; through = 0;
     clear = 0; deaf = 0; waits = 0; met = 0; meets_any = 0; held = 0
   }
 }

@@ -8,7 +8,7 @@
 # Real processes need root for shared memory and intruders, and a machine that is not busy. SCENARIO
 # (warehouse_loop) and VEHICLES (8) may be set.
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/../system/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 here=$(dirname "${BASH_SOURCE[0]}")
 SCENARIO=${SCENARIO:-warehouse_loop}
 VEHICLES=${VEHICLES:-8}

@@ -4,7 +4,7 @@
 # Exit code 0: all were found; 1: one was not; 2: could not run.
 # Usage: mutants.sh [MUTANT ...]
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/../system/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 BIN=$(dirname "$FLEETCTL")
 export GIVEWAY_CONFIG_DIR=${GIVEWAY_CONFIG_DIR:-$REPOSITORY/config}
 [[ -x $BIN/planted_vehicle ]] || {

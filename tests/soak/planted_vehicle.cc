@@ -1,5 +1,5 @@
 // The defects of `planted_vehicle`, a giveway-vehicle for tests of what a soak finds:
-// GIVEWAY_DEFECT names a defect of the brain (tests/support/planted_names.h), or leak, descriptor
+// GIVEWAY_DEFECT names a defect of the brain (tests/support/mutant_names.h), or leak, descriptor
 // or slow_loop. Empty or unset: no defect, and the vehicle behaves like the product's. Linked
 // before its libraries.
 #include <fcntl.h>
@@ -14,7 +14,7 @@
 
 #include "services/runtime/process.h"
 #include "services/vehicle/vehicle.h"
-#include "tests/support/planted_names.h"
+#include "tests/support/mutant_names.h"
 
 namespace giveway {
 namespace {
@@ -51,7 +51,7 @@ const bool kDone = [] {
     std::thread(Leak).detach();
   } else if (name == "descriptor") {
     std::thread(LoseDescriptors).detach();
-  } else if (!name.empty() && name != "slow_loop" && !PlantNamed(name)) {
+  } else if (!name.empty() && name != "slow_loop" && !ActivateNamedMutant(name)) {
     std::fprintf(stderr, "GIVEWAY_DEFECT: no defect is called '%s'\n", std::string(name).c_str());
     std::_Exit(2);
   }

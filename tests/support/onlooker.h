@@ -3,7 +3,7 @@
 #pragma once
 
 #include "services/vehicle/situation/echoes.h"
-#include "services/vehicle/situation/look.h"
+#include "services/vehicle/situation/peer_relation.h"
 #include "tests/support/brain_bench.h"
 
 namespace giveway::test {
@@ -17,7 +17,7 @@ class Onlooker {
     own_.distance_to_goal_m = 100;
     own_.reaction_s = ReactionSeconds(options_);
     own_.slows_m = 10;
-    own_.looks_m = LooksAround(options_.profile);
+    own_.interest_radius_m = InterestRadius(options_.profile);
   }
   Onlooker(const Onlooker&) = delete;  // its view refers to the others
 
@@ -33,11 +33,11 @@ class Onlooker {
   }
 
   // The view refers to the peer.
-  PeerView LookAt(Peer* peer) const {
+  PeerView RelatePeer(Peer* peer) const {
     PeerView view{};
     view.peer = peer;
     view.fresh = IsFresh(*peer, {}, own_.tick, options_);
-    giveway::LookAt(CarryForward(PeerViews<HeardPeer>({&view, 1}), own_), own_);
+    giveway::RelatePeers(CarryForward(PeerViews<HeardPeer>({&view, 1}), own_), own_);
     return view;
   }
 

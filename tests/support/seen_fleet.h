@@ -57,12 +57,12 @@ class SeenFleet : public testing::Test {
     Of(id).truth.wheels = {wheel, wheel};
     Of(id).truth.forward_m_s = speed_m_s;
   }
-  void Decide(VehicleId id, Rule rule, VehicleId peer = kNobody) {
+  void Decide(VehicleId id, Rule rule, VehicleId peer = kNoVehicle) {
     Car& car = Of(id);
     car.status.decision = {.mode = Mode::kCooperative, .rule = rule, .peer = peer};
     car.beacon.mode = Mode::kCooperative;
     car.beacon.rule = rule;
-    car.beacon.gives_way_to = rule == Rule::kGiveWay ? peer : kNobody;
+    car.beacon.gives_way_to = rule == Rule::kGiveWay ? peer : kNoVehicle;
   }
   void Halt(VehicleId id, VehicleId peer) {
     Drive(id, 0);

@@ -12,7 +12,7 @@
 #include "services/types/fleet_facts.h"
 #include "services/vehicle/vehicle.h"
 #include "sim_world/run/run.h"
-#include "sim_world/run/signals.h"
+#include "sim_world/run/traffic_lights.h"
 #include "sim_world/sensors/sensor.h"
 #include "sim_world/sensors/sonar.h"
 
@@ -27,7 +27,7 @@ class SmallFleet {
         sonar_(scenario_.sonar, scenario_.seed, scenario_.tick_period),
         scene_(scenario_.walls),
         sonar_states_(scenario_.vehicles.size()),
-        said_(scenario_.vehicles.size()) {
+        outputs_(scenario_.vehicles.size()) {
     std::uint32_t boot_epoch = 1;
     for (const VehicleOptions& options : scenario_.vehicles) {
       run_.Join(options.id);
@@ -43,15 +43,15 @@ class SmallFleet {
     heads_.Advance(run_.TimeSeconds(), WorldEpoch{1}, run_.Now());
     Hear();
     std::vector<ReceivedBeacon> on_air;
-    for (const Outputs& said : said_) {
-      if (said.beacon.seq == 0) continue;
-      Beacon beacon = said.beacon;
+    for (const Outputs& outputs : outputs_) {
+      if (outputs.beacon.seq == 0) continue;
+      Beacon beacon = outputs.beacon;
       if (lie_) lie_(&beacon);
       on_air.push_back({.beacon = beacon,
                         .received = Now(),
                         .crc_valid = true,
                         .name_valid = true,
-                        .writer = said.beacon.boot_epoch});
+                        .writer = outputs.beacon.boot_epoch});
     }
     commands_.clear();
     for (std::size_t i = 0; i < brains_.size(); ++i) Think(i, on_air);
@@ -63,7 +63,7 @@ class SmallFleet {
 
   sim::SignalHeads& Heads() { return heads_; }
   const sim::Run& World() const { return run_; }
-  const Outputs& Said(std::size_t i) const { return said_[i]; }
+  const Outputs& OutputsOf(std::size_t i) const { return outputs_[i]; }
   const Vehicle& Brain(std::size_t i) const { return *brains_[i]; }
   const std::vector<WorldEvent>& History() const { return history_; }
   std::uint32_t Count(EventKind kind) const {
@@ -128,15 +128,15 @@ class SmallFleet {
                                .vehicle = scenario_.vehicles[i].id,
                                .epoch = WorldEpoch{1},
                                .tick = run_.Now()};
-    const VehicleProfile& profile = scenario_.vehicles[i].profile;
+    const RobotModel& profile = scenario_.vehicles[i].profile;
     RadarScan radar;
     LidarScan lidar;
     CameraScan camera;
     if (profile.radar) inputs.radar = &(radar = SenseRadar(view));
     if (profile.lidar) inputs.lidar = &(lidar = SenseLidar(view));
     if (profile.camera) inputs.camera = &(camera = SenseCamera(view));
-    said_[i] = brains_[i]->Step(inputs);
-    commands_.push_back(said_[i].command);
+    outputs_[i] = brains_[i]->Step(inputs);
+    commands_.push_back(outputs_[i].command);
   }
 
   Scenario scenario_;
@@ -149,7 +149,7 @@ class SmallFleet {
   std::vector<sim::SonarSubject> subjects_;
   std::vector<sim::OwnerFacts> facts_;
   std::vector<std::unique_ptr<Vehicle>> brains_;
-  std::vector<Outputs> said_;
+  std::vector<Outputs> outputs_;
   std::vector<MotorCommand> commands_;
   std::vector<WorldEvent> history_;
   std::function<void(Beacon*)> lie_;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # fleetctl qos apply on a fleet that another fleetctl runs: a deadline while it drives, a restart,
 # a canary that is promoted and one that is rolled back, and what is refused.
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 unset GIVEWAY_QOS GIVEWAY_INTERFACE GIVEWAY_DOMAIN
 cd "$SCRATCH"
 default=$REPOSITORY/config/qos/default.xml

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Any mistake in what the operator gives: exit code 2, a message that names the file, the line and the remedy,
 # nothing started, and no waiting.
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 
 # A small valid scenario; each case corrupts one thing.
 good="$SCRATCH/good.textproto"

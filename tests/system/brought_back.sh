@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # fleetctl run --restart: a vehicle that is killed, and the world, are started again and drive on; the
 # run does not end, and no two bodies touch.
-source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/members.sh"
 cat >"$SCRATCH/two_lanes.textproto" <<'TEXT'
 name: "two_lanes"
 duration_s: 0

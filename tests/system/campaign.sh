@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # `fleetctl campaign`: one JSON object however the campaign was divided, run and interrupted, and what is
 # refused, with a reason and exit code 2.
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 cd "$SCRATCH"
 unset JOB_COMPLETION_INDEX SLURM_ARRAY_TASK_ID PARALLEL_SEQ
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # One run of a shipped scenario, judged by its JSON and its picture.
 # Usage: crossing.sh SCENARIO
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 scenario=${1:?name a scenario}
 
 # What readers of the JSON rely on, in every run.

@@ -3,7 +3,7 @@
 # two vehicles that know its address: one packet of a stranger ends the server, and so does kill -9. Within
 # three seconds it holds its port again, each time; the vehicles drive on all the time; and with Fast DDS 3,
 # where a client finds such a server again, a newcomer is found through it. Then SIGTERM ends both.
-source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/members.sh"
 source "$REPOSITORY/services/setup.sh"
 take_domain
 PORT=$((7000 + DOMAIN))

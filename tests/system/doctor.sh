@@ -11,7 +11,7 @@ if [[ -z ${OWN_HOST:-} ]]; then
   OWN_HOST=1 exec unshare -m bash -c \
     'mount -t tmpfs -o size=64m none /dev/shm && exec bash "$0" "$@"' "$0" "$@"
 fi
-source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/members.sh"
 unset GIVEWAY_QOS GIVEWAY_INTERFACE GIVEWAY_DOMAIN
 cd "$SCRATCH"
 take_domain

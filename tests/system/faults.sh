@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # `fleetctl faults` as its README.md and its help show it: lists that expand to themselves, and what is
 # refused. Starts nothing.
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 cd "$SCRATCH"
 
 # The commands of services/fleetctl/faults/README.md.

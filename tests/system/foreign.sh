@@ -2,7 +2,7 @@
 # A whole vehicle of another vendor's DDS among real processes: it crosses in both roles, also without ever
 # granting, and killed and back; its mistakes are logged by name; and fleetctl knows it as foreign. Four runs
 # in parallel, each in a domain of its own: most of the time they wait.
-source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/members.sh"
 HERE=$REPOSITORY/tests/foreign
 FOREIGN=$GIVEWAY_FOREIGN_VEHICLE
 cd "$SCRATCH"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # /livez, /readyz and /metrics of real services, by --health and by arbitrary requests of strangers; a loop
 # that hangs; and stops: within a second of SIGTERM, with exit code 0, distinguished from a loss.
-source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/members.sh"
 take_domain
 FIRST_PORT=$((21000 + DOMAIN * 10))
 WORLD=$FIRST_PORT A=$((FIRST_PORT + 1)) B=$((FIRST_PORT + 2)) C=$((FIRST_PORT + 3))

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The help of the command line: it fits any terminal, with suggestions for misspelt names, completion,
 # colours, man pages, and verbs that find the only fleet by themselves.
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 cd "$SCRATCH"
 programs=$(dirname "$FLEETCTL")
 

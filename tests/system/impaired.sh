@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # A crossing received through an impaired channel: the vehicles pass, no two bodies touch, and what was
 # injected is what was configured.
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 
 # count VEHICLE NAME: a number from the line in which the vehicle's log reports what was injected.
 count() { sed -n "s/.* impairment: .*\b$2=\([0-9]*\).*/\1/p" "$SCRATCH/logs/vehicle-$1.log"; }

@@ -3,7 +3,7 @@
 # the same, and many in a row count as one request; a second Ctrl-C does not wait. The bound on the time
 # guards against hanging, it is not a measurement: a quiet machine takes under half a second, a busy one
 # longer.
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 
 now_ms() { echo $(($(date +%s%N) / 1000000)); }
 

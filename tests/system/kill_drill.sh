@@ -2,7 +2,7 @@
 # kill -9 of each process of a run at several moments: fleetctl names the process that died and exits 1, and
 # within two seconds nothing of the run is left: no process, no shared memory.
 # Usage: kill_drill.sh [MOMENTS_PER_PROCESS] [SEED]
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 moments=${1:-${GIVEWAY_KILLS:-2}}
 RANDOM=${2:-1} # a seeded sequence: a failure can be repeated
 

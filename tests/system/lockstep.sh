@@ -3,7 +3,7 @@
 # also while every core is kept busy by something else, and under faults of the world: then the
 # world's log names each as it starts and ends.
 # Usage: lockstep.sh SCENARIO SEED [FAULTS.textproto]
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 scenario=${1:?name a scenario} seed=${2:?give a seed} faults=${3:-}
 
 load=()

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # fleetctl qos as an operator meets it: exit codes, JSON, invalid files, and that the shipped sets which need
 # no other service run a crossing.
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 
 sets=$REPOSITORY/config/qos
 bad=$REPOSITORY/tests/unit/qos/bad_qos

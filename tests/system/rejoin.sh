@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Vehicles join and leave a running world: one that was killed with -9 drives again within five seconds of its
 # restart, under its id or another; a fleet grows from two to four and shrinks again; and no two bodies touch.
-source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/members.sh"
 take_domain
 keep_time
 

@@ -2,7 +2,7 @@
 # Runs a scenario many times, each with its own seed and domain. A line for each failure, then one
 # that sums up. The exit code is the verdict: 0 if every run passed.
 # Usage: repeat.sh SCENARIO [N] [--jobs J] [--seed-start K]   N is by default $GIVEWAY_REPEATS or 10
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 
 usage() {
   echo "Usage: repeat.sh SCENARIO [N] [--jobs J] [--seed-start K]" >&2

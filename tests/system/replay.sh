@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Recordings of real runs replay to the bit: of a crossing, of one whose second vehicle is killed with -9, and
 # of a file corrupted on the disk, as far as possible.
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 
 # replayed FILE CONDITION: true of the only file's entry in the report.
 replayed() {

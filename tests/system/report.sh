@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # fleetctl report: shows a soak's report, redraws its page, flags a worse one and passes an equal one, and
 # refuses what is no report or not comparable, with a reason and exit code 2.
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 cd "$SCRATCH"
 
 # soak FOLDER BEACON_AGE_NS VERDICT SCENARIO: the report of a soak of 5 minutes.

@@ -2,7 +2,7 @@
 # A vehicle that drives, heard as ROS 2 topics by a reader of another vendor's DDS: odometry, ranges,
 # transforms, markers and commands at 10 Hz; its marker is deleted after it was killed. The same in a domain
 # of its own.
-source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/members.sh"
 LISTENER=$GIVEWAY_ROS2_LISTENER
 cd "$SCRATCH"
 

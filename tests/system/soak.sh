@@ -5,7 +5,7 @@
 # replays; every beacon of a lossy network is accounted for; and in virtual time the same list gives the same
 # report twice. Each in a domain of its own, in parallel, in about two minutes.
 # shellcheck disable=SC2317,SC2030,SC2031 # background functions are called by name
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 
 # refused WORDS ARGUMENTS...: exit code 2, the words, and no report.
 refused() {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # fleetctl stopwatch: the shipped profile keeps every promise; what is refused, including AUTOMATIC
 # liveliness; and Ctrl-C.
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 unset GIVEWAY_QOS GIVEWAY_INTERFACE
 cd "$SCRATCH"
 

@@ -2,7 +2,7 @@
 # fleetctl qos tune: refuses what it cannot search, measures with real vehicles, leaves every file it
 # promises, and continues where it was cut off. Small searches: what comes out of them is not judged.
 # With GIVEWAY_TUNE_QUICK=1 a whole --quick search, which must be verified within three minutes.
-source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 unset GIVEWAY_QOS GIVEWAY_INTERFACE GIVEWAY_DOMAIN GIVEWAY_IMPAIR GIVEWAY_SEED
 cd "$SCRATCH"
 

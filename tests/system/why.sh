@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # fleetctl why on real processes: each reason why one vehicle cannot receive another is named, and the probe
 # agrees; what is no reason is not named. Other namespaces need root, and are skipped without it.
-source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/members.sh"
 unset GIVEWAY_QOS GIVEWAY_INTERFACE GIVEWAY_DOMAIN
 cd "$SCRATCH"
 take_domain

@@ -2,7 +2,7 @@
 # The world is killed with -9 and restarted, with a checkpoint, with a damaged one and without, is asked to
 # stop, and reaches the end of its run: the same vehicle processes drive again within five seconds, and no two
 # bodies touch. A vehicle without --stay ends with its run.
-source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/members.sh"
 take_domain
 checkpoint=$SCRATCH/world.checkpoint
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Injects every defect of services/vehicle/estimation/planted.h, and checks that an invariant of the virtual
+# Injects every defect of services/vehicle/estimation/injected_mutants.h, and checks that an invariant of the virtual
 # fleet detects it. Each line of defects.txt names a defect, the lines of defence that remain, the invariants of
 # which at least one must break, and the run that shows it: a generator, a shipped scenario, or one of the
 # folder scenarios. Without the defect the same run must pass, and with all lines of defence end in the same
@@ -87,5 +87,5 @@ done <"$here/defects.txt"
 # A defect without a line would never be tested.
 while read -r defect; do
   [[ -n ${tried[$defect]:-} ]] || report false "$defect: has no line in defects.txt"
-done < <(sed -n 's/^ *{"\([a-z_]*\)", Defect::k.*/\1/p' "$root/tests/support/planted_names.h")
+done < <(sed -n 's/^ *{"\([a-z_]*\)", Mutant::k.*/\1/p' "$root/tests/support/mutant_names.h")
 exit "$failed"

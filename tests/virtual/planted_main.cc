@@ -5,14 +5,14 @@
 #include <string>
 
 #include "services/fleetctl/args/verbs.h"
-#include "tests/support/planted_names.h"
+#include "tests/support/mutant_names.h"
 
 int main(int argc, char** argv) {
   constexpr int kWrongArguments = 2;
   const char* const names = std::getenv("GIVEWAY_DEFECT");
   std::istringstream defects(names == nullptr ? "" : names);
   for (std::string name; std::getline(defects, name, ',');) {
-    if (giveway::PlantNamed(name)) continue;
+    if (giveway::ActivateNamedMutant(name)) continue;
     std::fprintf(stderr, "fleetctl_planted: GIVEWAY_DEFECT: no defect is called '%s'\n",
                  name.c_str());
     return kWrongArguments;

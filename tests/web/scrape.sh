@@ -7,7 +7,7 @@
 # curl and jq. Lines "ok NAME" and "FAILED NAME". Exit code: 0 all ok, 1 something failed, 2 could not check.
 set -uo pipefail
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-source "$project/tests/system/members.sh"
+source "$project/tests/support/members.sh"
 set +e # what fails here is reported
 seconds=12
 [[ ${1:-} == --seconds ]] && seconds=$2

@@ -24,7 +24,7 @@ constexpr Allowed kShards{1, 100000};
 
 std::string ReadCampaignName(const Section& root) {
   if (!root.Has("name")) {
-    root.ComplainMissing("name", "write name: \"...\"");
+    root.AddMissingError("name", "write name: \"...\"");
     return "";
   }
   const std::string name = root.Text("name");
@@ -32,7 +32,7 @@ std::string ReadCampaignName(const Section& root) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   });
   if (!clean || name.empty() || name.size() > kLongestCampaignName || name.front() == '-') {
-    root.Complain("name", "must be 1 to 64 of the characters a-z 0-9 _ -, the first not a -",
+    root.AddError("name", "must be 1 to 64 of the characters a-z 0-9 _ -, the first not a -",
                   "write such as nightly_1");
   }
   return name;
@@ -42,15 +42,15 @@ std::vector<std::string> ReadGenerators(const Section& root,
                                         std::span<const std::string_view> known) {
   std::vector<std::string> names = root.Texts("generator");
   if (names.empty()) {
-    root.ComplainMissing("generator", "write generator: \"crossing\", or scenario: \"four_way\"");
+    root.AddMissingError("generator", "write generator: \"crossing\", or scenario: \"four_way\"");
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
     const int index = static_cast<int>(i);
     if (std::ranges::find(known, names[i]) == known.end()) {
-      root.Complain("generator", "is no generator",
+      root.AddError("generator", "is no generator",
                     fmt::format("write one of {}", fmt::join(known, ", ")), index);
     } else if (std::find(names.begin(), names.begin() + index, names[i]) != names.begin() + index) {
-      root.Complain("generator", "stands there already", "name each once", index);
+      root.AddError("generator", "stands there already", "name each once", index);
     }
   }
   return names;
@@ -64,7 +64,7 @@ std::string ReadFileName(const Section& root, const char* field, const char* rem
   const bool clean =
       std::ranges::none_of(name, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
   if (clean && !name.empty() && name.front() != '-') return name;
-  root.Complain(field, "is no name of a file", remedy);
+  root.AddError(field, "is no name of a file", remedy);
   return "";
 }
 
@@ -74,18 +74,18 @@ void ReadSubjects(const Section& root, std::span<const std::string_view> known,
   if (!root.Has("scenario")) {
     plan->generators = ReadGenerators(root, known);
     if (root.Has("duration_s")) {
-      root.Complain("duration_s", "stands without a scenario: generators know how long they last",
+      root.AddError("duration_s", "stands without a scenario: generators know how long they last",
                     "remove it, or write scenario:");
     }
     return;
   }
   const std::string scenario = ReadFileName(root, "scenario", "write such as four_way, or a path");
   if (std::ranges::find(known, scenario) != known.end()) {
-    root.Complain("scenario", "is a generator too, which is what would be run",
+    root.AddError("scenario", "is a generator too, which is what would be run",
                   "write generator:, or the path of the scenario's file");
   }
   if (root.Has("generator")) {
-    root.Complain("generator", "is given together with a scenario", "write a campaign for each");
+    root.AddError("generator", "is given together with a scenario", "write a campaign for each");
   }
   plan->generators = {scenario};
   const double duration_s = root.NumberOr(1, "duration_s", kCampaignDuration_s);
@@ -100,7 +100,7 @@ std::optional<CampaignNumbers> ReadRange(const Section& root, const char* field,
     return std::nullopt;
   }
   if (ends.front() > ends.back()) {
-    root.Complain(field, "the lowest is above the highest", "write [lowest, highest]");
+    root.AddError(field, "the lowest is above the highest", "write [lowest, highest]");
     return std::nullopt;
   }
   return CampaignNumbers{ends.front(), ends.back()};
@@ -111,14 +111,14 @@ CampaignWholes WholesOfRange(const CampaignNumbers& range) {
 }
 
 void ReadSeeds(const Section& root, CampaignPlan* plan) {
-  if (!root.Has("seeds")) root.ComplainMissing("seeds", "write seeds: [1, 1000]");
+  if (!root.Has("seeds")) root.AddMissingError("seeds", "write seeds: [1, 1000]");
   const auto seeds = ReadRange(root, "seeds", kWholeNumber);
   if (!seeds) return;
   plan->seeds = WholesOfRange(*seeds);
   const std::uint64_t runs =
       (std::uint64_t{plan->seeds.high} - plan->seeds.low + 1) * plan->generators.size();
   if (runs > kMostRuns) {
-    root.Complain(
+    root.AddError(
         "seeds",
         fmt::format("are {} runs with all generators; at most {} are allowed", runs, kMostRuns),
         "write another campaign for the others");
@@ -136,13 +136,13 @@ void ReadRadio(const Section& root, CampaignPlan* plan) {
 }
 
 void ReadFaultsOfRuns(const Section& root, CampaignPlan* plan) {
-  plan->crashes = root.WholeOr(0, "crashes", kProcessFaults);
-  plan->pauses = root.WholeOr(0, "pauses", kProcessFaults);
-  plan->restarts = root.WholeOr(0, "restarts", kProcessFaults);
+  plan->crashes = root.UintOr(0, "crashes", kProcessFaults);
+  plan->pauses = root.UintOr(0, "pauses", kProcessFaults);
+  plan->restarts = root.UintOr(0, "restarts", kProcessFaults);
   plan->skip_unsupported = root.FlagOr(false, "skip_unsupported");
   if (!root.Has("faults")) {
     if (plan->skip_unsupported) {
-      root.Complain("skip_unsupported", "stands without faults", "remove it, or write faults:");
+      root.AddError("skip_unsupported", "stands without faults", "remove it, or write faults:");
     }
     return;
   }
@@ -163,7 +163,7 @@ CampaignPlan ReadCampaign(const Section& root, std::span<const std::string_view>
   }
   ReadRadio(root, &plan);
   ReadFaultsOfRuns(root, &plan);
-  plan.shards = root.WholeOr(1, "shards", kShards);
+  plan.shards = root.UintOr(1, "shards", kShards);
   return plan;
 }
 

@@ -35,7 +35,7 @@ constexpr std::size_t kLongestName = 64;
 
 std::string ReadRuleName(const Section& section) {
   if (!section.Has("name")) {
-    section.ComplainMissing("name", "write name: \"...\"");
+    section.AddMissingError("name", "write name: \"...\"");
     return "";
   }
   const std::string name = section.Text("name");
@@ -43,7 +43,7 @@ std::string ReadRuleName(const Section& section) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   });
   if (!clean || name.empty() || name.size() > kLongestName) {
-    section.Complain("name", "must be 1 to 64 of the characters a-z 0-9 _ -",
+    section.AddError("name", "must be 1 to 64 of the characters a-z 0-9 _ -",
                      "choose another name");
   }
   return name;
@@ -52,12 +52,12 @@ std::string ReadRuleName(const Section& section) {
 // Nothing where it is missing or unknown, which is a problem then.
 const KindRow* ReadKindRow(const Section& section) {
   if (!section.Has("kind")) {
-    section.ComplainMissing("kind", "write kind: with a word that `fleetctl faults list` shows");
+    section.AddMissingError("kind", "write kind: with a word that `fleetctl faults list` shows");
     return nullptr;
   }
   const std::string word = section.Text("kind");
   if (const auto kind = faults::KindOf(word)) return &faults::RowOf(*kind);
-  section.Complain("kind", "is no kind of fault",
+  section.AddError("kind", "is no kind of fault",
                    fmt::format("write {}, or another that `fleetctl faults list` shows",
                                faults::NearestKind(word)));
   return nullptr;
@@ -75,8 +75,8 @@ std::string TakenBy(const KindRow& row) {
   return names.empty() ? "nothing" : names;
 }
 
-void ComplainNotTaken(const Section& section, const KindRow& row, std::string_view field) {
-  section.Complain(field, fmt::format("{} does not take it", row.word),
+void AddNotTakenError(const Section& section, const KindRow& row, std::string_view field) {
+  section.AddError(field, fmt::format("{} does not take it", row.word),
                    fmt::format("remove it: {} takes {}", row.word, TakenBy(row)));
 }
 
@@ -85,7 +85,7 @@ void ReadQuantity(const Section& section, const KindRow& row, faults::Quantity q
   const std::string_view field = faults::FieldOf(quantity);
   if (!section.Has(field)) return;
   const faults::QuantityRow* taken = faults::RowOf(row.kind, quantity);
-  if (taken == nullptr) return ComplainNotTaken(section, row, field);
+  if (taken == nullptr) return AddNotTakenError(section, row, field);
   const double value = section.Number(field, {taken->low, taken->high, faults::UnitOf(quantity)});
   if (!std::isnan(value)) faults::Set(parameters, quantity, value);
 }
@@ -96,7 +96,7 @@ std::string ReadQosName(const Section& section) {
   const bool clean = std::ranges::none_of(
       name, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
   if (!clean || name.empty() || name.front() == '-') {
-    section.Complain("qos", "is no name of a profile set or file",
+    section.AddError("qos", "is no name of a profile set or file",
                      "write such as lossy_radio, or a path");
   }
   return name;
@@ -108,22 +108,22 @@ Parameters ReadParameters(const Section& section, const KindRow& row) {
     ReadQuantity(section, row, static_cast<faults::Quantity>(i), &parameters);
   }
   if (section.Has("from")) {
-    if (!row.takes_from) ComplainNotTaken(section, row, "from");
-    parameters.from = VehicleId{section.Whole("from", kId)};
+    if (!row.takes_from) AddNotTakenError(section, row, "from");
+    parameters.from = VehicleId{section.Uint("from", kId)};
   }
   if (section.Has("qos")) {
-    if (row.usual_qos.empty()) ComplainNotTaken(section, row, "qos");
+    if (row.usual_qos.empty()) AddNotTakenError(section, row, "qos");
     parameters.qos = ReadQosName(section);
   }
   return parameters;
 }
 
-void ComplainOfTime(const Section& section, const KindRow& row) {
+void AddTimeError(const Section& section, const KindRow& row) {
   if (row.takes_time && !section.Has("for_s")) {
-    section.ComplainMissing("for_s", fmt::format("write for_s: with how long {} lasts", row.word));
+    section.AddMissingError("for_s", fmt::format("write for_s: with how long {} lasts", row.word));
   }
   if (!row.takes_time && section.Has("for_s")) {
-    section.Complain("for_s", fmt::format("{} takes no time", row.word), "remove it");
+    section.AddError("for_s", fmt::format("{} takes no time", row.word), "remove it");
   }
 }
 
@@ -137,14 +137,14 @@ std::optional<What> ReadTargetWord(const Section& section,
     if (name == word) return what;
     names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
   }
-  section.Complain("target", "is none of its words", "write one of " + names);
+  section.AddError("target", "is none of its words", "write one of " + names);
   return std::nullopt;
 }
 
-void ComplainUnlessAllowed(const Section& section, const KindRow* row, const char* field,
-                           Target::What what) {
+void CheckAllowed(const Section& section, const KindRow* row, const char* field,
+                  Target::What what) {
   if (row == nullptr || row->Allows(what)) return;
-  section.Complain(field, fmt::format("{} cannot meet {}", row->word, faults::ToString(what)),
+  section.AddError(field, fmt::format("{} cannot meet {}", row->word, faults::ToString(what)),
                    fmt::format("name {}", faults::TargetsOf(*row)));
 }
 
@@ -155,19 +155,19 @@ Target ReadTarget(const Section& section, const KindRow* row) {
       {"all", Target::What::kAll},
   }};
   if (section.Has("vehicle") == section.Has("target")) {
-    section.Complain(
+    section.AddError(
         section.Has("target") ? "target" : "",
         section.Has("target") ? "is given together with vehicle" : "has no target",
         section.Has("target") ? "remove one of the two" : "write vehicle: with an id, or target:");
     return {};
   }
   if (section.Has("vehicle")) {
-    ComplainUnlessAllowed(section, row, "vehicle", Target::What::kVehicle);
-    return {Target::What::kVehicle, VehicleId{section.Whole("vehicle", kId)}};
+    CheckAllowed(section, row, "vehicle", Target::What::kVehicle);
+    return {Target::What::kVehicle, VehicleId{section.Uint("vehicle", kId)}};
   }
   const auto what = ReadTargetWord(section, kWords);
   if (!what) return {};
-  ComplainUnlessAllowed(section, row, "target", *what);
+  CheckAllowed(section, row, "target", *what);
   return {*what};
 }
 
@@ -202,9 +202,9 @@ Targets ReadTargets(const Section& section, const KindRow* row) {
   }};
   if (section.Has("vehicle")) {
     if (section.Has("target")) {
-      section.Complain("target", "is given together with vehicle", "remove one of the two");
+      section.AddError("target", "is given together with vehicle", "remove one of the two");
     }
-    ComplainUnlessAllowed(section, row, "vehicle", Target::What::kVehicle);
+    CheckAllowed(section, row, "vehicle", Target::What::kVehicle);
     return {Targets::What::kNamed, ReadNamed(section)};
   }
   Targets targets;
@@ -213,7 +213,7 @@ Targets ReadTargets(const Section& section, const KindRow* row) {
     if (!what) return targets;
     targets.what = *what;
   }
-  ComplainUnlessAllowed(section, row, section.Has("target") ? "target" : "", OneOf(targets.what));
+  CheckAllowed(section, row, section.Has("target") ? "target" : "", OneOf(targets.what));
   return targets;
 }
 
@@ -221,13 +221,13 @@ faults::AtRule ReadAt(const Section& section) {
   faults::AtRule rule;
   rule.line = section.Line();
   rule.name = ReadRuleName(section);
-  rule.nth = section.WholeOr(0, "nth", kWholeNumber);
+  rule.nth = section.UintOr(0, "nth", kWholeNumber);
   rule.time_s = section.Number("time_s", kTime);
   const KindRow* row = ReadKindRow(section);
   rule.target = ReadTarget(section, row);
   if (section.Has("for_s")) rule.for_s = section.Number("for_s", kLasting);
   if (row == nullptr) return rule;
-  ComplainOfTime(section, *row);
+  AddTimeError(section, *row);
   rule.kind = row->kind;
   rule.parameters = ReadParameters(section, *row);
   return rule;
@@ -240,7 +240,7 @@ void ReadLasting(const Section& section, faults::RandomRule* rule) {
   rule->for_low_s = span.front();
   rule->for_high_s = span.back();
   if (rule->for_low_s > rule->for_high_s) {
-    section.Complain("for_s", "the lowest is above the highest", "write [lowest, highest]");
+    section.AddError("for_s", "the lowest is above the highest", "write [lowest, highest]");
   }
 }
 
@@ -252,9 +252,9 @@ faults::RandomRule ReadRandom(const Section& section) {
   const KindRow* row = ReadKindRow(section);
   rule.targets = ReadTargets(section, row);
   ReadLasting(section, &rule);
-  if (section.Has("at_most")) rule.at_most = section.Whole("at_most", kTimes);
+  if (section.Has("at_most")) rule.at_most = section.Uint("at_most", kTimes);
   if (row == nullptr) return rule;
-  ComplainOfTime(section, *row);
+  AddTimeError(section, *row);
   rule.kind = row->kind;
   rule.parameters = ReadParameters(section, *row);
   return rule;
@@ -263,8 +263,8 @@ faults::RandomRule ReadRandom(const Section& section) {
 // The sections of a repeated field, or none where there are too many to look at.
 std::vector<Section> RulesOf(const Section& root, const char* field, int most) {
   const int count = root.Count(field);
-  if (count <= most) return root.Subs(field);
-  root.Complain(field, fmt::format("is one of {}; at most {} are allowed", count, most),
+  if (count <= most) return root.Children(field);
+  root.AddError(field, fmt::format("is one of {}; at most {} are allowed", count, most),
                 "leave some out", most);
   return {};
 }
@@ -278,7 +278,7 @@ class UsedNames {
     const auto other = nth ? lines_.find({name, std::nullopt}) : FirstOf(name, known);
     const bool twice = !is_new || (other != lines_.end() && other != known);
     if (!twice) return;
-    section.Complain("name", fmt::format("stands in line {} too", (is_new ? other : known)->second),
+    section.AddError("name", fmt::format("stands in line {} too", (is_new ? other : known)->second),
                      nth ? "give each its own name, or another nth" : "give each its own name");
   }
 

@@ -55,8 +55,8 @@ void Set(const PlannedFault& fault, schema::Fault* message) {
 }
 
 // Wheels, caps and rates distinguish robots; the sensors follow from them.
-bool IsPioneer(const VehicleProfile& profile) {
-  const VehicleProfile pioneer = PioneerP3dx();
+bool IsPioneer(const RobotModel& profile) {
+  const RobotModel pioneer = PioneerP3dx();
   return profile.shape == BodyShape::kDisc && profile.body_radius_m == pioneer.body_radius_m &&
          profile.drive.axle_m == pioneer.drive.axle_m &&
          profile.drive.wheel_radius_m == pioneer.drive.wheel_radius_m &&
@@ -109,7 +109,7 @@ void Set(const ImpairmentRule& rule, schema::Impair* message) {
   } else if (rule.from != ImpairedSender::kAnyone) {
     message->set_from(static_cast<schema::ImpairedSender>(rule.from));
   }
-  if (rule.to_vehicle != kNobody) message->set_to_vehicle(Number(rule.to_vehicle));
+  if (rule.to_vehicle != kNoVehicle) message->set_to_vehicle(Number(rule.to_vehicle));
   SetNumbers(rule, message);
   if (rule.from_s) message->set_from_s(*rule.from_s);
   if (rule.to_s) message->set_to_s(*rule.to_s);

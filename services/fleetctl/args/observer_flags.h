@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "services/fleetctl/args/reading_along.h"
+#include "services/fleetctl/args/observer_session.h"
 
 namespace giveway::fleetctl {
 

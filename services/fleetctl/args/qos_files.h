@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "services/qos/check.h"
+#include "services/qos/profile_check.h"
 #include "services/types/admin.h"
 #include "services/types/scenario.h"
 

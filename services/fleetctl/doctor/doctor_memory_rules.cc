@@ -99,13 +99,13 @@ void ForPairs(const HostFacts& host, Check&& check) {
   std::vector<const ProcessSituation*> kinds;
   for (const ProcessSituation& process : host.processes) {
     const FileIdentity memory = process.shared_memory.value_or(FileIdentity{});
-    const Kind kind{process.told.domain, process.network_namespace, memory.device,
-                    memory.inode,        HostId(process),           UsesSharedMemory(process)};
+    const Kind kind{process.launch.domain, process.network_namespace, memory.device,
+                    memory.inode,          HostId(process),           UsesSharedMemory(process)};
     if (known.insert(kind).second) kinds.push_back(&process);
   }
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     for (std::size_t j = i + 1; j < kinds.size(); ++j) {
-      if (kinds[i]->told.domain == kinds[j]->told.domain) check(*kinds[i], *kinds[j]);
+      if (kinds[i]->launch.domain == kinds[j]->launch.domain) check(*kinds[i], *kinds[j]);
     }
   }
 }

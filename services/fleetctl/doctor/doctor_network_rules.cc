@@ -41,8 +41,9 @@ struct DomainPorts {
 
 // Participants that will run but do not yet: the vehicles, the world and an observer.
 std::int64_t ToCome(const HostFacts& host, std::uint32_t domain) {
-  const auto running = std::ranges::count(
-      host.processes, domain, [](const ProcessSituation& process) { return process.told.domain; });
+  const auto running =
+      std::ranges::count(host.processes, domain,
+                         [](const ProcessSituation& process) { return process.launch.domain; });
   return std::max<std::int64_t>(host.vehicles + qos::kOtherParticipants - running, 0);
 }
 
@@ -69,7 +70,7 @@ void CheckTaken(const HostFacts& host, const DomainPorts& ports, std::uint32_t d
     if (ports.Contains(port)) strange.insert(port);
   }
   for (const ProcessSituation& process : host.processes) {
-    if (process.told.domain == domain && !process.ports) return;  // they may be its
+    if (process.launch.domain == domain && !process.ports) return;  // they may be its
     for (const std::uint16_t port : process.ports.value_or(std::vector<std::uint16_t>{})) {
       strange.erase(port);
     }
@@ -87,10 +88,10 @@ void CheckTaken(const HostFacts& host, const DomainPorts& ports, std::uint32_t d
 void CheckIds(const HostFacts& host, const DomainPorts& ports, std::uint32_t domain,
               qos::Findings* findings) {
   const std::set<std::int64_t> taken(host.ports->begin(), host.ports->end());
-  const std::int64_t tries = Planned(host, qos::Policy::kMutationTries, 100);
+  const std::int64_t attempts = Planned(host, qos::Policy::kMutationTries, 100);
   std::int64_t free = 0;
   std::int64_t free_inside = 0;
-  for (std::int64_t id = 0; id < tries && ports.DataOf(id) <= kLastPort; ++id) {
+  for (std::int64_t id = 0; id < attempts && ports.DataOf(id) <= kLastPort; ++id) {
     if (taken.contains(ports.DiscoveryOf(id)) || taken.contains(ports.DataOf(id))) continue;
     ++free;
     if (ports.DataOf(id) <= ports.Last()) ++free_inside;
@@ -99,7 +100,8 @@ void CheckIds(const HostFacts& host, const DomainPorts& ports, std::uint32_t dom
   const std::string values = fmt::format(
       "domain {}: of {} participant ids that are tried {} are free, {} of them with ports of the "
       "domain; {} to come",
-      domain, tries, free, free_inside, Counted(static_cast<std::size_t>(needed), "participant"));
+      domain, attempts, free, free_inside,
+      Counted(static_cast<std::size_t>(needed), "participant"));
   if (free < needed) {
     Add(Severity::kError, "participant_ids_short", values,
         fmt::format("The last {} find no free port, and do not start.", needed - free),
@@ -126,7 +128,7 @@ void CheckCarries(const HostFacts& host, const HostInterface& one, qos::Findings
   const bool refuses = one.echoes_multicast == false;
   if (!refuses && (one.says_multicast || one.loopback)) return;
   Add(refuses ? Severity::kError : Severity::kWarning, "multicast_missing",
-      fmt::format("--interface {}: {} {}", host.planned.told.interface, Shown(one),
+      fmt::format("--interface {}: {} {}", host.planned.launch.interface, Shown(one),
                   refuses ? "gives back nothing that is sent to 239.255.0.1, not even on this host"
                           : "says that it carries no multicast"),
       refuses
@@ -140,7 +142,7 @@ void CheckCarries(const HostFacts& host, const HostInterface& one, qos::Findings
 }  // namespace
 
 void CheckMulticast(const HostFacts& host, qos::Findings* findings) {
-  const std::string& wanted = host.planned.told.interface;
+  const std::string& wanted = host.planned.launch.interface;
   std::vector<HostInterface> meant;
   std::string there;
   for (const HostInterface& one : host.interfaces) {

@@ -37,9 +37,9 @@ constexpr std::int64_t kLookNs = 50'000;
 // A vehicle as it would be started now.
 ProcessSituation Planned(const DoctorOptions& options) {
   ProcessSituation planned;
-  planned.told.interface = options.interface;
-  planned.told.qos_file = ResolveQosFile(options.qos);
-  const auto read = ReadQosFile(planned.told.qos_file);
+  planned.launch.interface = options.interface;
+  planned.launch.qos_file = ResolveQosFile(options.qos);
+  const auto read = ReadQosFile(planned.launch.qos_file);
   if (const auto* why = std::get_if<qos::Finding>(&read)) {
     throw InputError({{why->place.file, 0, "", "", why->values, why->remedy}});
   }
@@ -144,7 +144,7 @@ std::vector<std::uint32_t> DomainsOf(const DoctorOptions& options, const HostFac
   if (options.domain) return {*options.domain};
   std::set<std::uint32_t> domains;
   for (const ProcessSituation& process : host.processes) {
-    if (process.told.domain != 0) domains.insert(process.told.domain);
+    if (process.launch.domain != 0) domains.insert(process.launch.domain);
   }
   if (domains.empty()) domains.insert(kFirstDomain);
   return {domains.begin(), domains.end()};

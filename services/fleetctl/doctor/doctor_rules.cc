@@ -7,7 +7,7 @@
 #include <set>
 #include <tuple>
 
-#include "services/qos/rules.h"
+#include "services/qos/qos_rules.h"
 
 namespace giveway::fleetctl {
 namespace {

@@ -10,16 +10,16 @@ namespace giveway::fleetctl {
 FileLease::FileLease(const std::filesystem::path& file)
     : file_(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)) {
   if (!file_.IsOpen()) {
-    if (errno == EWOULDBLOCK) said_ = Answer::kUsed;  // another has a lease
+    if (errno == EWOULDBLOCK) outcome_ = Answer::kUsed;  // another has a lease
     return;
   }
   // The kernel signals the holder when another process opens the file; ignored, that would end the
   // process.
   std::signal(SIGIO, SIG_IGN);
   if (::fcntl(file_.Get(), F_SETLEASE, F_WRLCK) == 0) {
-    said_ = Answer::kAlone;
+    outcome_ = Answer::kAlone;
   } else if (errno == EAGAIN) {
-    said_ = Answer::kUsed;
+    outcome_ = Answer::kUsed;
   }
 }
 

@@ -16,17 +16,17 @@ class FileLease {
   enum class Answer : std::uint8_t {
     kAlone,    // the lease is ours
     kUsed,     // another process has it open or mapped
-    kNotSaid,  // only its owner and root may ask, and not on every file system
+    kUnknown,  // only its owner and root may ask, and not on every file system
   };
 
   explicit FileLease(const std::filesystem::path& file);
 
-  Answer Said() const { return said_; }
+  Answer Outcome() const { return outcome_; }
   const FileDescriptor& File() const { return file_; }
 
  private:
   FileDescriptor file_;  // closing it ends the lease
-  Answer said_ = Answer::kNotSaid;
+  Answer outcome_ = Answer::kUnknown;
 };
 
 }  // namespace giveway::fleetctl

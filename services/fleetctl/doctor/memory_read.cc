@@ -37,9 +37,9 @@ std::map<FileKey, MemoryFile*> ByKey(std::vector<MemoryFile>* files) {
 }
 
 // What one process does with the files.
-class Look {
+class ProcessUse {
  public:
-  Look(const fs::path& process, int pid, const std::map<FileKey, MemoryFile*>& files)
+  ProcessUse(const fs::path& process, int pid, const std::map<FileKey, MemoryFile*>& files)
       : process_(process), pid_(pid), files_(files) {}
 
   // False if either list may not be read.
@@ -89,8 +89,8 @@ bool IsLocked(const fs::path& file) {
 
 void AskKernel(const fs::path& folder, MemoryFile* file) {
   if (!file->users.empty()) return;
-  const FileLease::Answer said = FileLease(folder / file->name).Said();
-  if (said != FileLease::Answer::kNotSaid) {
+  const FileLease::Answer said = FileLease(folder / file->name).Outcome();
+  if (said != FileLease::Answer::kUnknown) {
     file->held = said == FileLease::Answer::kUsed;
   } else if (PartOf(file->name) == MemoryPart::kLock) {
     file->locked = IsLocked(folder / file->name);
@@ -118,9 +118,9 @@ std::vector<UnseenProcess> ReadUsers(const fs::path& proc, std::vector<MemoryFil
   for (const int pid : ProcessIds(proc)) {
     if (pid == ::getpid()) continue;
     const fs::path process = proc / std::to_string(pid);
-    Look look(process, pid, by_key);
-    const bool maps = look.Maps();
-    const bool holds = look.Holds();
+    ProcessUse use(process, pid, by_key);
+    const bool maps = use.Maps();
+    const bool holds = use.Holds();
     if (maps && holds) continue;
     // Kernel threads and ended processes have no command line.
     struct stat owner {};

@@ -56,8 +56,8 @@ std::string Take(const fs::path& folder, const MemoryFile& was, std::vector<File
                                 FileIdentity{now.st_dev, now.st_ino} != was.identity)) {
     return "was replaced meanwhile";
   }
-  if (lease.Said() == FileLease::Answer::kUsed) return "is used again";
-  if (lease.Said() == FileLease::Answer::kNotSaid) return "the kernel does not say who uses it";
+  if (lease.Outcome() == FileLease::Answer::kUsed) return "is used again";
+  if (lease.Outcome() == FileLease::Answer::kUnknown) return "the kernel does not say who uses it";
   leases->push_back(std::move(lease));
   return {};
 }

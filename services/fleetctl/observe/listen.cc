@@ -26,12 +26,12 @@ class Listening {
   int Run() {
     while (Interrupts::Count() == 0 && !IsOver()) {
       SleepUntil(SteadyNow() + kListenTurn);
-      const OutputResult result = TellNew();
-      if (result != OutputResult::kYes) return ExitCodeOf(result);
+      const WriteResult result = WriteNew();
+      if (result != WriteResult::kWritten) return ExitCodeOf(result);
       HintIfQuiet();
     }
     if (heard_ > 0 || Interrupts::Count() > 0) return 0;
-    Complain();
+    PrintReason();
     return kNothingHeard;
   }
 
@@ -43,7 +43,7 @@ class Listening {
     return options_.duration_s && Seconds(Since()) >= *options_.duration_s;
   }
 
-  OutputResult TellNew() {
+  WriteResult WriteNew() {
     const link::Observed observed = observer_.Take();
     fleet_.Fold(observed, SteadyNow());
     std::string text;
@@ -52,18 +52,18 @@ class Listening {
       text += line + "\n";
       ++heard_;
     }
-    return text.empty() ? OutputResult::kYes : Tell(text);
+    return text.empty() ? WriteResult::kWritten : WriteStdout(text);
   }
 
   void HintIfQuiet() {
     if (heard_ > 0 || hinted_ || Since() < kHintAfter) return;
     hinted_ = true;
-    Complain();
+    PrintReason();
   }
 
-  void Complain() const {
-    if (!fleet_.Anybody()) {
-      std::fprintf(stderr, "%s\n", NobodyHeard(post_, SteadyNow()).c_str());
+  void PrintReason() const {
+    if (!fleet_.IsAnyHeard()) {
+      std::fprintf(stderr, "%s\n", NothingHeard(post_, SteadyNow()).c_str());
       return;
     }
     std::fprintf(stderr, "a fleet is there, but nothing was received on %s for %.1f s%s\n",
@@ -74,7 +74,7 @@ class Listening {
   const ListenOptions& options_;
   link::ObserverLink observer_;
   ListeningPost post_;
-  HeardFleet fleet_;  // only for better error messages
+  FleetSnapshot fleet_;  // only for better error messages
   std::uint64_t heard_ = 0;
   bool hinted_ = false;
 };

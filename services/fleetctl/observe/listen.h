@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "services/fleetctl/args/reading_along.h"
+#include "services/fleetctl/args/observer_session.h"
 #include "services/fleetctl/observe/listen_topics.h"
 
 namespace giveway::fleetctl {

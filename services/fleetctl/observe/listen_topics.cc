@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "services/observer/fleet/sample_format.h"
 #include "services/observer/fleet/sample_json.h"
-#include "services/observer/fleet/sample_words.h"
 
 namespace giveway::fleetctl {
 namespace {

@@ -43,7 +43,7 @@ void Listen(ListenOptions options, int* exit_code) {
                                                 ", which is not about vehicles");
   }
   FindFleetIfNotNamed(&options.where);
-  SayOtherFleets(options.where.domain, options.where.interface);
+  ReportOtherFleets(options.where.domain, options.where.interface);
   *exit_code = RunListen(options);
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "services/fleetctl/args/reading_along.h"
+#include "services/fleetctl/args/observer_session.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/survey/local_fleets.h"
 #include "services/runtime/json.h"
@@ -32,7 +32,7 @@ std::string Ids(const std::vector<FleetMember>& vehicles) {
   std::size_t unnamed = 0;
   for (std::size_t i = 0; i < vehicles.size(); ++i) {
     const std::uint32_t first = Number(vehicles[i].id);
-    if (vehicles[i].id == kNobody) {
+    if (vehicles[i].id == kNoVehicle) {
       ++unnamed;
       continue;
     }
@@ -63,7 +63,7 @@ std::string Table(const std::vector<LocalFleet>& fleets, std::uint64_t here) {
 
 Json MemberJson(const FleetMember& vehicle) {
   Json json;
-  if (vehicle.id != kNobody) json["id"] = Number(vehicle.id);
+  if (vehicle.id != kNoVehicle) json["id"] = Number(vehicle.id);
   json["pid"] = vehicle.pid;
   return json;
 }
@@ -83,14 +83,14 @@ std::string ToJson(const std::vector<LocalFleet>& fleets) {
 int RunLs(bool json) {
   const std::vector<LocalFleet> fleets = LocalFleets();
   if (json) {
-    const int code = ExitCodeOf(Tell(ToJson(fleets) + "\n"));
+    const int code = ExitCodeOf(WriteStdout(ToJson(fleets) + "\n"));
     return code != 0 ? code : fleets.empty() ? 1 : 0;
   }
   if (fleets.empty()) {
     std::fprintf(stderr, "no fleet runs on this machine\n");
     return 1;
   }
-  return ExitCodeOf(Tell(Table(fleets, OwnNetworkNamespace().value_or(0))));
+  return ExitCodeOf(WriteStdout(Table(fleets, OwnNetworkNamespace().value_or(0))));
 }
 
 }  // namespace

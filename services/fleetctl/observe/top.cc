@@ -15,9 +15,9 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr int kNobodyThere = 1;
+constexpr int kNoFleet = 1;
 constexpr Nanoseconds kTableTurn = std::chrono::milliseconds(10);
-constexpr Nanoseconds kFirstWords = std::chrono::seconds(1);  // for discovery to find a vehicle
+constexpr Nanoseconds kFirstSamples = std::chrono::seconds(1);  // for discovery to find a vehicle
 // Without a terminal nothing is cut.
 constexpr TerminalSize kEndless{std::numeric_limits<int>::max(), std::numeric_limits<int>::max()};
 
@@ -39,22 +39,22 @@ class Top {
       if (Interrupts::Count() > 0) return 0;
       Turn();
     }
-    if (fleet_.Anybody()) return ExitCodeOf(Tell(Block()));
-    if (options_.json) Tell(Block());
-    std::fprintf(stderr, "%s\n", NobodyHeard(post_, SteadyNow()).c_str());
-    return kNobodyThere;
+    if (fleet_.IsAnyHeard()) return ExitCodeOf(WriteStdout(Block()));
+    if (options_.json) WriteStdout(Block());
+    std::fprintf(stderr, "%s\n", NothingHeard(post_, SteadyNow()).c_str());
+    return kNoFleet;
   }
 
   int Live() {
     while (Interrupts::Count() == 0) {
       Turn();
       const SteadyTime now = SteadyNow();
-      if (!fleet_.Anybody() && now - post_.since < kFirstWords) continue;
+      if (!fleet_.IsAnyHeard() && now - post_.since < kFirstSamples) continue;
       if (!screen_.IsDue(now)) continue;
       if (in_place_) {
         screen_.Draw(TopLines(fleet_, post_, now, SizeOfTerminal()));
-      } else if (const OutputResult result = Tell(Block() + (options_.json ? "" : "\n"));
-                 result != OutputResult::kYes) {
+      } else if (const WriteResult result = WriteStdout(Block() + (options_.json ? "" : "\n"));
+                 result != WriteResult::kWritten) {
         return ExitCodeOf(result);
       }
     }
@@ -80,7 +80,7 @@ class Top {
   const bool in_place_;
   link::ObserverLink observer_;
   ListeningPost post_;
-  HeardFleet fleet_;
+  FleetSnapshot fleet_;
   LiveScreen screen_;
 };
 

@@ -1,7 +1,7 @@
 // The verb `fleetctl top`: a table of a fleet started elsewhere. Values in; the exit code out.
 #pragma once
 
-#include "services/fleetctl/args/reading_along.h"
+#include "services/fleetctl/args/observer_session.h"
 
 namespace giveway::fleetctl {
 

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "services/observer/fleet/sample_format.h"
 #include "services/observer/fleet/sample_json.h"
-#include "services/observer/fleet/sample_words.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -21,22 +21,22 @@ std::string AgeText(std::optional<SteadyTime> heard_at, SteadyTime now) {
   return heard_at ? fmt::format("{:.0f} ms", Milliseconds(now - *heard_at)) : "-";
 }
 
-std::string EventsOf(const HeardVehicle& vehicle) {
+std::string EventsOf(const VehicleSnapshot& vehicle) {
   return vehicle.status ? EventsText(*vehicle.status) : "-";
 }
 
 // A vehicle that has fallen silent: its last state is history, its counts are not.
-std::string PastRow(VehicleId id, const HeardVehicle& vehicle, SteadyTime now) {
-  const Hearing hearing = vehicle.HearingAt(now);
+std::string PastRow(VehicleId id, const VehicleSnapshot& vehicle, SteadyTime now) {
+  const Liveness liveness = vehicle.LivenessAt(now);
   const auto heard_at = vehicle.HeardAt();
   const std::string since =
       heard_at ? fmt::format("for {:.0f} s", Seconds(now - *heard_at)) : "body in world";
   return fmt::format(kRowFormat, Number(id),
-                     hearing == Hearing::kNever ? "not heard" : Name(hearing), since, "-", "-", "-",
-                     "-", EventsOf(vehicle));
+                     liveness == Liveness::kNever ? "not heard" : Name(liveness), since, "-", "-",
+                     "-", "-", EventsOf(vehicle));
 }
 
-std::string StatusRow(VehicleId id, const HeardVehicle& vehicle, SteadyTime now) {
+std::string StatusRow(VehicleId id, const VehicleSnapshot& vehicle, SteadyTime now) {
   const VehicleStatus& status = *vehicle.status;
   const std::string echo =
       status.nearest_echo_m ? fmt::format("{:.2f}", *status.nearest_echo_m) : "-";
@@ -46,7 +46,7 @@ std::string StatusRow(VehicleId id, const HeardVehicle& vehicle, SteadyTime now)
 }
 
 // A foreign peer, or one whose statuses do not arrive: only its beacons are known.
-std::string BeaconRow(VehicleId id, const HeardVehicle& vehicle, SteadyTime now) {
+std::string BeaconRow(VehicleId id, const VehicleSnapshot& vehicle, SteadyTime now) {
   const Beacon& beacon = *vehicle.beacon;
   const Decision said{.mode = beacon.mode, .rule = beacon.rule, .peer = beacon.gives_way_to};
   return fmt::format(kRowFormat, Number(id), giveway::Name(said.mode), ReasonText(said),
@@ -54,16 +54,16 @@ std::string BeaconRow(VehicleId id, const HeardVehicle& vehicle, SteadyTime now)
                      "-", "no status heard");
 }
 
-std::string Row(VehicleId id, const HeardVehicle& vehicle, SteadyTime now) {
-  if (vehicle.HearingAt(now) != Hearing::kHeard) return PastRow(id, vehicle, now);
+std::string Row(VehicleId id, const VehicleSnapshot& vehicle, SteadyTime now) {
+  if (vehicle.LivenessAt(now) != Liveness::kHeard) return PastRow(id, vehicle, now);
   return vehicle.status ? StatusRow(id, vehicle, now) : BeaconRow(id, vehicle, now);
 }
 
-bool IsWorldSilent(const HeardWorld& world, SteadyTime now) {
-  return world.state != RunState::kEnded && now - *world.heard_at > HeardFleet::kSilentAfter;
+bool IsWorldSilent(const WorldSnapshot& world, SteadyTime now) {
+  return world.state != RunState::kEnded && now - *world.heard_at > FleetSnapshot::kSilentAfter;
 }
 
-std::string WorldText(const HeardWorld& world, SteadyTime now) {
+std::string WorldText(const WorldSnapshot& world, SteadyTime now) {
   if (!world.heard_at) return "no world heard";
   std::string text = fmt::format(
       "world {}", world.state ? giveway::Name(*world.state) : std::string_view("heard"));
@@ -78,7 +78,7 @@ std::string PostText(const ListeningPost& post) {
   return fmt::format("domain {}  {}  area {}", post.domain, post.interface, post.area);
 }
 
-Json WorldJson(const HeardWorld& world, SteadyTime now) {
+Json WorldJson(const WorldSnapshot& world, SteadyTime now) {
   Json object;
   object["heard"] = world.heard_at.has_value();
   if (!world.heard_at) return object;
@@ -94,10 +94,10 @@ Json WorldJson(const HeardWorld& world, SteadyTime now) {
   return object;
 }
 
-Json VehicleJson(VehicleId id, const HeardVehicle& vehicle, SteadyTime now) {
+Json VehicleJson(VehicleId id, const VehicleSnapshot& vehicle, SteadyTime now) {
   Json object;
   object["id"] = Number(id);
-  object["hearing"] = Name(vehicle.HearingAt(now));
+  object["hearing"] = Name(vehicle.LivenessAt(now));
   if (vehicle.HeardAt()) object["heard_s_ago"] = Seconds(now - *vehicle.HeardAt());
   if (vehicle.beacon) {
     object["beacon_age_s"] = Seconds(now - *vehicle.beacon_at);
@@ -112,9 +112,9 @@ Json VehicleJson(VehicleId id, const HeardVehicle& vehicle, SteadyTime now) {
 
 }  // namespace
 
-std::vector<std::string> TopLines(const HeardFleet& fleet, const ListeningPost& post,
+std::vector<std::string> TopLines(const FleetSnapshot& fleet, const ListeningPost& post,
                                   SteadyTime now, TerminalSize size) {
-  const HeardWorld& world = fleet.World();
+  const WorldSnapshot& world = fleet.World();
   std::vector<std::string> head{
       fmt::format("{}  {}", WorldText(world, now), PostText(post)),
       world.last_event ? "last event: " + ToLine(*world.last_event) : "last event: none heard",
@@ -122,11 +122,11 @@ std::vector<std::string> TopLines(const HeardFleet& fleet, const ListeningPost& 
                   "events")};
   std::vector<std::string> rows;
   for (const auto& [id, vehicle] : fleet.Vehicles()) rows.push_back(Row(id, vehicle, now));
-  if (!fleet.Anybody()) rows.push_back(NobodyHeard(post, now));
+  if (!fleet.IsAnyHeard()) rows.push_back(NothingHeard(post, now));
   return FitTerminal(std::move(head), rows, size);
 }
 
-std::string TopJson(const HeardFleet& fleet, const ListeningPost& post, SteadyTime now) {
+std::string TopJson(const FleetSnapshot& fleet, const ListeningPost& post, SteadyTime now) {
   Json object;
   object["domain"] = post.domain;
   object["interface"] = post.interface;
@@ -139,7 +139,7 @@ std::string TopJson(const HeardFleet& fleet, const ListeningPost& post, SteadyTi
   return JsonText(std::move(object));
 }
 
-std::string NobodyHeard(const ListeningPost& post, SteadyTime now) {
+std::string NothingHeard(const ListeningPost& post, SteadyTime now) {
   return fmt::format(
       "nothing received for {:.1f} s in domain {} on interface {} in area {}: is a fleet running "
       "there? "

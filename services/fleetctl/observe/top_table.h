@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "services/fleetctl/output/live_table.h"
-#include "services/observer/fleet/heard_fleet.h"
+#include "services/observer/fleet/fleet_snapshot.h"
 
 namespace giveway::fleetctl {
 
@@ -19,10 +19,10 @@ struct ListeningPost {
 };
 
 // Fits the terminal as TableLines does.
-std::vector<std::string> TopLines(const HeardFleet& fleet, const ListeningPost& post,
+std::vector<std::string> TopLines(const FleetSnapshot& fleet, const ListeningPost& post,
                                   SteadyTime now, TerminalSize size);
-std::string TopJson(const HeardFleet& fleet, const ListeningPost& post, SteadyTime now);
+std::string TopJson(const FleetSnapshot& fleet, const ListeningPost& post, SteadyTime now);
 // What to check if nothing is received.
-std::string NobodyHeard(const ListeningPost& post, SteadyTime now);
+std::string NothingHeard(const ListeningPost& post, SteadyTime now);
 
 }  // namespace giveway::fleetctl

@@ -38,7 +38,7 @@ void AddTopVerb(CLI::App* fleetctl, int* exit_code) {
   verb->add_flag("--json", options->json, "Print JSON objects on stdout and nothing else");
   verb->callback([options, exit_code] {
     FindFleetIfNotNamed(&options->where);
-    SayOtherFleets(options->where.domain, options->where.interface);
+    ReportOtherFleets(options->where.domain, options->where.interface);
     *exit_code = RunTop(*options);
   });
 }

@@ -16,7 +16,7 @@ inline constexpr std::string_view kTraceHead =
 struct TraceLine {
   Tick tick = kNoTick;
   double time_s = 0;
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   Pose world_from_body;  // the truth, or the vehicle's estimate where there is none
   double forward_m_s = 0;
   bool arrived = false;

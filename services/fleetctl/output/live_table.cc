@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "services/observer/fleet/sample_words.h"
+#include "services/observer/fleet/sample_format.h"
 
 namespace giveway::fleetctl {
 namespace {

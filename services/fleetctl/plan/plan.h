@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "services/qos/check.h"
+#include "services/qos/profile_check.h"
 
 namespace giveway::fleetctl {
 

@@ -18,9 +18,9 @@ void CanaryWatch::Take() {
     const auto [entry, is_new] = seen_.try_emplace(status.vehicle);
     Seen& seen = entry->second;
     // A restarted process counts from zero.
-    const bool began_anew = !is_new && status.beacons.sent < seen.last.beacons.sent;
-    seen.began_anew |= began_anew;
-    if (is_new || began_anew) {
+    const bool restarted = !is_new && status.beacons.sent < seen.last.beacons.sent;
+    seen.restarted |= restarted;
+    if (is_new || restarted) {
       seen.first = status;
       seen.first_at = now;
     }
@@ -49,7 +49,7 @@ CanaryWatch::Both CanaryWatch::Watch(VehicleId vehicle, Nanoseconds span) {
   const auto ours = seen_.find(vehicle);
   if (ours == seen_.end() || end - ours->second.last_at > kSilence) {
     both.trouble = "it fell silent";
-  } else if (ours->second.began_anew) {
+  } else if (ours->second.restarted) {
     both.trouble = "its process restarted";
   }
   for (const auto& [id, seen] : seen_) {

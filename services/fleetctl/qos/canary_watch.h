@@ -30,7 +30,7 @@ class CanaryWatch {
     SteadyTime first_at{0};
     VehicleStatus last;
     SteadyTime last_at{0};
-    bool began_anew = false;  // its process
+    bool restarted = false;  // its process
   };
   void Take();
 

@@ -14,11 +14,11 @@
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/process/run_key.h"
+#include "services/fleetctl/qos/admin_client.h"
 #include "services/fleetctl/qos/canary_watch.h"
-#include "services/fleetctl/qos/orders.h"
-#include "services/fleetctl/qos/qos_apart.h"
 #include "services/fleetctl/qos/qos_apply_fleet.h"
 #include "services/fleetctl/qos/qos_apply_report.h"
+#include "services/fleetctl/qos/qos_in_child.h"
 #include "services/qos/order_check.h"
 #include "services/qos/rollout.h"
 #include "services/qos/xml_tree.h"
@@ -64,7 +64,7 @@ qos::XmlElement RootOf(const QosProfiles& profiles) {
 
 // What must be undone after a failed canary, or a set that a vehicle refuses.
 struct Undo {
-  VehicleId process = kNobody;
+  VehicleId process = kNoVehicle;
   QosProfiles profiles;
 };
 
@@ -72,7 +72,7 @@ class Applying {
  public:
   Applying(const QosApplyOptions& options, const link::LinkOptions& link, const std::string& key,
            QosProfiles wanted)
-      : options_(options), link_(link), orders_(link, key), wanted_(std::move(wanted)) {
+      : options_(options), link_(link), client_(link, key), wanted_(std::move(wanted)) {
     report_.profile = wanted_.name;
   }
 
@@ -92,34 +92,34 @@ class Applying {
   // Whether each reports that it runs with its previous set.
   bool RollBack();
   qos::Role RoleOf(VehicleId process) const {
-    return process == kNobody ? qos::Role::kWorld : qos::Role::kVehicle;
+    return process == kNoVehicle ? qos::Role::kWorld : qos::Role::kVehicle;
   }
   QosProfiles Between() const { return {"between-" + wanted_.name, rollout_.between}; }
-  void Say(const std::string& text) const {
+  void ShowText(const std::string& text) const {
     if (!options_.json) std::fputs(text.c_str(), stdout);
     std::fflush(stdout);
   }
 
   const QosApplyOptions& options_;
   const link::LinkOptions& link_;
-  Orders orders_;
+  AdminClient client_;
   const QosProfiles wanted_;
-  std::map<VehicleId, AdminAnswer> told_;  // by every vehicle that takes orders, targets or not
-  qos::Rollout rollout_;                   // its processes are report_.vehicles
+  std::map<VehicleId, AdminAnswer> answers_;  // by every vehicle that takes orders, targets or not
+  qos::Rollout rollout_;                      // its processes are report_.vehicles
   std::vector<Undo> undo_;
   ApplyReport report_;
 };
 
 int Applying::Ask() {
   FleetAnswers fleet;
-  const int code = AskFleet(options_, &orders_, &fleet);
-  for (const VehicleId vehicle : fleet.deaf) {
-    Say(NameOf(vehicle) + " takes no orders, and keeps what it has\n");
+  const int code = AskFleet(options_, &client_, &fleet);
+  for (const VehicleId vehicle : fleet.not_administrable) {
+    ShowText(NameOf(vehicle) + " takes no orders, and keeps what it has\n");
   }
   if (code != 0) return code;
-  told_ = std::move(fleet.told);
+  answers_ = std::move(fleet.answers);
   for (const VehicleId process : fleet.targets) {
-    const QosProfiles& before = told_.at(process).profiles;
+    const QosProfiles& before = answers_.at(process).profiles;
     AppliedTo applied;
     applied.vehicle = process;
     applied.before = before.name;
@@ -134,12 +134,12 @@ int Applying::Ask() {
 void Applying::Plan() {
   std::vector<qos::RolloutProcess> processes;
   const auto add = [&](VehicleId process, bool moves) {
-    const QosProfiles& profiles = told_.at(process).profiles;
+    const QosProfiles& profiles = answers_.at(process).profiles;
     processes.push_back({NameOf(process), RoleOf(process),
                          qos::ReadProfiles(RootOf(profiles), profiles.name), moves});
   };
   for (const AppliedTo& applied : report_.vehicles) add(applied.vehicle, true);
-  for (const auto& [process, answer] : told_) {
+  for (const auto& [process, answer] : answers_) {
     // Clang 14 does not capture a structured binding.
     const VehicleId id = process;
     const auto is_it = [id](const AppliedTo& applied) { return applied.vehicle == id; };
@@ -160,7 +160,7 @@ void Applying::CheckAsOrder() {
   const qos::XmlElement wanted = RootOf(wanted_);
   std::vector<std::string> seen;
   for (const AppliedTo& applied : report_.vehicles) {
-    const QosProfiles& running = told_.at(applied.vehicle).profiles;
+    const QosProfiles& running = answers_.at(applied.vehicle).profiles;
     if (std::ranges::find(seen, running.text) != seen.end()) continue;
     seen.push_back(running.text);
     std::ranges::move(qos::CheckOrder(wanted, RootOf(running), wanted_.name),
@@ -170,7 +170,7 @@ void Applying::CheckAsOrder() {
 
 void Applying::CheckAsIs() {
   std::int64_t fleet_size = 1;
-  for (const auto& [process, answer] : told_) {
+  for (const auto& [process, answer] : answers_) {
     fleet_size = std::max<std::int64_t>(fleet_size, answer.fleet_size);
   }
   const qos::Deployment deployment{.vehicles = fleet_size};
@@ -213,8 +213,8 @@ void Hold(const AdminAnswer& answer, AppliedTo* applied) {
 
 bool Applying::ApplyTo(AppliedTo* applied, const QosProfiles& profiles, bool between) {
   const SteadyTime begun = SteadyNow();
-  AdminAnswer& told = told_.at(applied->vehicle);
-  const auto answer = orders_.Give(ApplyOrder(applied->vehicle, profiles), kApplyPatience);
+  AdminAnswer& current = answers_.at(applied->vehicle);
+  const auto answer = client_.Send(ApplyRequest(applied->vehicle, profiles), kApplyPatience);
   applied->seconds = Seconds(SteadyNow() - begun);
   applied->answered = answer.has_value();
   applied->in_effect = answer && answer->state == AnswerState::kInEffect;
@@ -222,9 +222,9 @@ bool Applying::ApplyTo(AppliedTo* applied, const QosProfiles& profiles, bool bet
   if (answer && !applied->in_effect) applied->refusal = "refuses it: " + answer->reason;
   if (applied->in_effect) {
     if (!between) Hold(*answer, applied);
-    undo_.push_back({applied->vehicle, std::exchange(told.profiles, profiles)});
+    undo_.push_back({applied->vehicle, std::exchange(current.profiles, profiles)});
   }
-  Say(between && applied->in_effect ? BetweenLine(*applied) : LineOf(*applied));
+  ShowText(between && applied->in_effect ? BetweenLine(*applied) : LineOf(*applied));
   return applied->in_effect;
 }
 
@@ -232,7 +232,8 @@ bool Applying::RollBack() {
   bool all = true;
   for (; !undo_.empty(); undo_.pop_back()) {
     const Undo& undo = undo_.back();
-    const auto answer = orders_.Give(ApplyOrder(undo.process, undo.profiles), kApplyPatience, true);
+    const auto answer =
+        client_.Send(ApplyRequest(undo.process, undo.profiles), kApplyPatience, true);
     all = answer && answer->state == AnswerState::kInEffect && all;
   }
   return all;
@@ -248,7 +249,7 @@ std::optional<ApplyVerdict> Applying::Try(AppliedTo* canary) {
       RollBack();
       return ApplyVerdict::kRefused;
     }
-    undo_.push_back({canary->vehicle, told_.at(canary->vehicle).profiles});
+    undo_.push_back({canary->vehicle, answers_.at(canary->vehicle).profiles});
     trial.worse = canary->refusal;
   } else if (watch.WaitUntilItHears(canary->vehicle, kHearPatience)) {
     const auto both = watch.Watch(canary->vehicle, FromSeconds(options_.watch_s));
@@ -262,7 +263,7 @@ std::optional<ApplyVerdict> Applying::Try(AppliedTo* canary) {
   // An operator who stops the trial has not confirmed that it is good.
   if (Interrupts::Count() > 0) trial.worse = "interrupted";
   report_.trial = trial;
-  Say(LineOf(trial));
+  ShowText(LineOf(trial));
   if (trial.worse.empty()) return {};
   return RollBack() ? ApplyVerdict::kRolledBack : ApplyVerdict::kNotRolledBack;
 }
@@ -283,7 +284,7 @@ ApplyReport Applying::Run() {
     report_.order.push_back(NameOf(report_.vehicles[step.process].vehicle) +
                             (step.between ? " (between)" : ""));
   }
-  Say(PlanText(report_));
+  ShowText(PlanText(report_));
   if (const auto why_not = WhyNot()) {
     report_.verdict = *why_not;
     return report_;
@@ -309,15 +310,15 @@ int RunQosApply(const QosApplyOptions& options) {
   link::LinkOptions tried = link;
   tried.qos = {ResolveQosFile(options.profile), wanted.text};
   // If the rules find errors the report lists them, and the library is not asked.
-  if (qos::WhyRefused({wanted.name, wanted.text}, UnknownFleet()).empty()) ResolveQosApart(tried);
+  if (qos::WhyRefused({wanted.name, wanted.text}, UnknownFleet()).empty()) ResolveQosInChild(tried);
   const Interrupts interrupts;
   const std::string key = KeyToOrderWith(options.where.admin_key, options.where.domain);
   Applying applying(options, link, key, std::move(wanted));
   if (const int code = applying.Ask(); code != 0) return code;
   const ApplyReport report = applying.Run();
   const std::string last = options.json ? ToJson(report) : LineOf(report);
-  const OutputResult result = Tell(last);
-  return result == OutputResult::kFailed ? ExitCodeOf(result) : ExitCode(report.verdict);
+  const WriteResult result = WriteStdout(last);
+  return result == WriteResult::kFailed ? ExitCodeOf(result) : ExitCode(report.verdict);
 }
 
 }  // namespace giveway::fleetctl

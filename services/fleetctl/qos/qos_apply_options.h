@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "services/fleetctl/args/reading_along.h"
+#include "services/fleetctl/args/observer_session.h"
 
 namespace giveway::fleetctl {
 

@@ -101,7 +101,7 @@ std::string FiguresText(const ServiceFigures& figures) {
 }  // namespace
 
 std::string NameOf(VehicleId process) {
-  return process == kNobody ? "the world" : fmt::format("vehicle {}", Number(process));
+  return process == kNoVehicle ? "the world" : fmt::format("vehicle {}", Number(process));
 }
 
 int ExitCode(ApplyVerdict verdict) {
@@ -118,7 +118,7 @@ std::string PlanText(const ApplyReport& report) {
     const std::string changes = fmt::format(": {} -> {}\n", Shown(applied.before), report.profile) +
                                 ChangesText(applied.changes);
     auto group = std::ranges::find(groups, changes, &std::pair<std::string, std::string>::first);
-    const bool is_world = applied.vehicle == kNobody;
+    const bool is_world = applied.vehicle == kNoVehicle;
     if (group == groups.end()) group = groups.insert(group, {changes, is_world ? "" : "vehicle"});
     group->second += is_world ? "the world" : fmt::format(" {}", Number(applied.vehicle));
   }
@@ -177,7 +177,7 @@ std::string LineOf(const ApplyReport& report) {
       break;
   }
   const auto vehicles = std::ranges::count_if(
-      report.vehicles, [](const AppliedTo& applied) { return applied.vehicle != kNobody; });
+      report.vehicles, [](const AppliedTo& applied) { return applied.vehicle != kNoVehicle; });
   const bool world = static_cast<std::size_t>(vehicles) < report.vehicles.size();
   return fmt::format("{} in effect on {} vehicle{}{}\n", report.profile, vehicles,
                      vehicles == 1 ? "" : "s", world ? " and the world" : "");

@@ -13,7 +13,7 @@
 namespace giveway::fleetctl {
 
 struct AppliedTo {
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   std::string before;  // name of the profiles it ran with
   std::vector<qos::Change> changes;
   bool answered = false;
@@ -25,7 +25,7 @@ struct AppliedTo {
 };
 
 struct CanaryTrial {
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   double seconds = 0;
   ServiceFigures canary;
   ServiceFigures rest;
@@ -52,7 +52,7 @@ struct ApplyReport {
   ApplyVerdict verdict = ApplyVerdict::kApplied;
 };
 
-// "vehicle 3"; for kNobody "the world".
+// "vehicle 3"; for kNoVehicle "the world".
 std::string NameOf(VehicleId process);
 int ExitCode(ApplyVerdict verdict);
 // The changes and their vehicles; vehicles with the same changes together.

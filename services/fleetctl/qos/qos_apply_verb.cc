@@ -86,7 +86,7 @@ void AddQosApply(CLI::App* qos, int* exit_code) {
     ReadTargets(*targets, options.get());
     CheckTargets(*options);
     FindFleetIfNotNamed(&options->where);
-    SayOtherFleets(options->where.domain, options->where.interface);
+    ReportOtherFleets(options->where.domain, options->where.interface);
     *exit_code = RunQosApply(*options);
   });
 }

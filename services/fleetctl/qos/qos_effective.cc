@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "services/fleetctl/args/qos_files.h"
-#include "services/fleetctl/qos/qos_apart.h"
+#include "services/fleetctl/qos/qos_in_child.h"
 #include "services/qos/deployment.h"
 #include "services/qos/xml_tree.h"
 
@@ -98,7 +98,7 @@ EffectiveSet EffectiveQosOfFile(const std::string& argument, const std::string& 
   options.fleet_size = vehicles;
   const std::string file = ResolveQosFile(argument);
   options.qos = ReadQosOrThrow(file);
-  EffectiveSet set{options.qos.name, EffectiveQos(ResolveQosApart(options), SetOf(options.qos))};
+  EffectiveSet set{options.qos.name, EffectiveQos(ResolveQosInChild(options), SetOf(options.qos))};
   set.endpoints.front().rows.push_back(InterfaceRow(interface));
   return set;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "services/link/ear.h"
+#include "services/link/discovery_probe.h"
 #include "services/qos/deployment.h"
 #include "services/runtime/process.h"
 
@@ -44,12 +44,12 @@ std::vector<EffectiveEndpoint> EffectiveForeign(const std::vector<link::FoundEnd
 }
 
 std::optional<ForeignVehicle> SeekForeign(const link::LinkOptions& options, VehicleId vehicle) {
-  link::Ear ear(options, {}, kNobody);
+  link::DiscoveryProbe probe(options, {}, kNoVehicle);
   SteadyTime end = SteadyNow() + kDiscoveryPatience;
-  std::optional<link::EarProcess> found;
+  std::optional<link::ProbedProcess> found;
   while (SteadyNow() < end) {
     SleepUntil(SteadyNow() + kProbeTurn);
-    for (link::EarProcess& process : ear.Listen()) {
+    for (link::ProbedProcess& process : probe.Poll()) {
       if (process.vehicle != vehicle || link::IsOurVendor(process.guid)) continue;
       if (!found) end = SteadyNow() + kSettles;
       found = std::move(process);

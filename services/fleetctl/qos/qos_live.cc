@@ -9,12 +9,12 @@
 #include <optional>
 #include <utility>
 
+#include "services/fleetctl/args/observer_session.h"
 #include "services/fleetctl/args/qos_files.h"
-#include "services/fleetctl/args/reading_along.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/process/run_key.h"
-#include "services/fleetctl/qos/orders.h"
+#include "services/fleetctl/qos/admin_client.h"
 #include "services/fleetctl/qos/qos_effective.h"
 #include "services/fleetctl/qos/qos_foreign.h"
 #include "services/fleetctl/survey/other_fleets.h"
@@ -73,28 +73,28 @@ std::vector<EffectiveEndpoint> LiveEndpoints(const AdminAnswer& answer) {
 std::optional<LiveQos> LiveQosOf(const QosLiveOptions& options, const std::string& file,
                                  int* exit_code) {
   const link::LinkOptions link_options = LinkOptionsOf(options, file);
-  SayOtherFleets(options.domain, options.set.interface);
+  ReportOtherFleets(options.domain, options.set.interface);
   const Interrupts interrupts;
-  Orders orders(link_options, KeyToOrderWith(options.admin_key, options.domain));
+  AdminClient client(link_options, KeyToOrderWith(options.admin_key, options.domain));
   const VehicleId vehicle{options.vehicle};
-  bool reached = orders.Seek({vehicle}, kOwnPatience).empty();
+  bool reached = client.Seek({vehicle}, kOwnPatience).empty();
   if (!reached) {
     if (auto foreign = SeekForeign(link_options, vehicle)) {
       return LiveQos{"", std::move(foreign->vendor), std::move(foreign->endpoints)};
     }
-    reached = orders.Seek({vehicle}, kAnswerPatience).empty();
+    reached = client.Seek({vehicle}, kAnswerPatience).empty();
   }
   if (!reached) {
-    *exit_code = SayNotReached(vehicle, options.domain);
+    *exit_code = ReportNotReached(vehicle, options.domain);
     return std::nullopt;
   }
-  const auto answer = orders.Give(TellOrder(vehicle), kAnswerPatience);
+  const auto answer = client.Send(ReportQosRequest(vehicle), kAnswerPatience);
   if (!answer) {
-    *exit_code = SayNoAnswer(vehicle);
+    *exit_code = ReportNoAnswer(vehicle);
     return std::nullopt;
   }
   if (answer->state == AnswerState::kRefused) {
-    *exit_code = SayRefused(*answer);
+    *exit_code = ReportRefused(*answer);
     return std::nullopt;
   }
   return LiveQos{answer->profiles.name, "", LiveEndpoints(*answer)};
@@ -126,22 +126,22 @@ std::vector<LiveRow> HoldAgainst(const EffectiveSet& set, const LiveQos& live,
   return all;
 }
 
-std::string ToText(const LiveRow& told, const std::string& own_file, const std::string& file) {
-  const std::string origin = OriginText(told.live, own_file);
-  return fmt::format("  {:<28} {:<24} {}{}\n", told.live.policy, told.live.value, origin,
-                     told.AsExpected() ? ""
-                                       : fmt::format("; not {} as by {}", told.expected->value,
-                                                     OriginText(*told.expected, file)));
+std::string ToText(const LiveRow& row, const std::string& own_file, const std::string& file) {
+  const std::string origin = OriginText(row.live, own_file);
+  return fmt::format("  {:<28} {:<24} {}{}\n", row.live.policy, row.live.value, origin,
+                     row.AsExpected() ? ""
+                                      : fmt::format("; not {} as by {}", row.expected->value,
+                                                    OriginText(*row.expected, file)));
 }
 
-Json ToJson(const LiveRow& told) {
+Json ToJson(const LiveRow& row) {
   Json json;
-  json["profile"] = told.profile;
-  json["policy"] = told.live.policy;
-  json["value"] = told.live.value;
-  json["origin"] = Name(told.live.origin);
-  if (told.live.line > 0) json["line"] = told.live.line;
-  if (told.expected) json["expected"] = told.expected->value;
+  json["profile"] = row.profile;
+  json["policy"] = row.live.policy;
+  json["value"] = row.live.value;
+  json["origin"] = Name(row.live.origin);
+  if (row.live.line > 0) json["line"] = row.live.line;
+  if (row.expected) json["expected"] = row.expected->value;
   return json;
 }
 
@@ -156,7 +156,7 @@ std::string ToJson(const QosLiveOptions& options, const std::string& file, const
     object["foreign"] = live.foreign;
   }
   object["file"] = file;
-  object["values"] = JsonArray(all, [](const LiveRow& told) { return ToJson(told); });
+  object["values"] = JsonArray(all, [](const LiveRow& row) { return ToJson(row); });
   return JsonText(std::move(object)) + "\n";
 }
 
@@ -164,10 +164,10 @@ std::string Text(const std::string& file, const LiveQos& live, const std::vector
   std::string text;
   if (!live.foreign.empty()) text = "foreign (" + live.foreign + "), as discovery reports it\n";
   std::string profile;
-  for (const LiveRow& told : all) {
-    if (told.profile != profile) text += told.profile + "\n";
-    profile = told.profile;
-    text += ToText(told, live.runs_with, file);
+  for (const LiveRow& row : all) {
+    if (row.profile != profile) text += row.profile + "\n";
+    profile = row.profile;
+    text += ToText(row, live.runs_with, file);
   }
   return text;
 }

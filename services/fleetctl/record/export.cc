@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "services/fleetctl/args/reading_along.h"
+#include "services/fleetctl/args/observer_session.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/record/export_csv.h"
 #include "services/link/sample_codec.h"
@@ -34,15 +34,15 @@ class Exporting {
                    options_.file.c_str());
       return kCouldNotRun;
     }
-    if (options_.csv && samples_ > 0) output_ = Tell(columns_.Head());
+    if (options_.csv && samples_ > 0) output_ = WriteStdout(columns_.Head());
     const mcap::ReadResult result = Read(&file, [this](Json sample) {
       ++written_;
-      output_ =
-          Tell(options_.csv ? columns_.Row(Flattened(sample)) : JsonText(std::move(sample)) + "\n");
+      output_ = WriteStdout(options_.csv ? columns_.Row(Flattened(sample))
+                                         : JsonText(std::move(sample)) + "\n");
       // A growing file may have further columns by now.
-      return output_ == OutputResult::kYes && written_ != samples_;
+      return output_ == WriteResult::kWritten && written_ != samples_;
     });
-    if (output_ != OutputResult::kYes) return ExitCodeOf(output_);
+    if (output_ != WriteResult::kWritten) return ExitCodeOf(output_);
     return Finish(result);
   }
 
@@ -136,7 +136,7 @@ class Exporting {
   CsvColumns columns_;
   Use use_;
   bool enough_ = false;
-  OutputResult output_ = OutputResult::kYes;
+  WriteResult output_ = WriteResult::kWritten;
   std::uint64_t samples_ = 0;  // of the topic, as far as the columns are those of them all
   std::uint64_t written_ = 0;
   std::uint64_t unreadable_ = 0;

@@ -130,9 +130,9 @@ int RunReplay(const ReplayOptions& options) {
   }
   const std::string text = options.json ? ToJson(files) + "\n" : ToText(files);
   std::fputs(text.c_str(), stdout);
-  const bool told = std::fflush(stdout) == 0;
-  if (!told) std::fprintf(stderr, "cannot write the verdict to stdout\n");
-  const int code = std::max(ExitCode(Judge(files)), told ? 0 : 1);
+  const bool written = std::fflush(stdout) == 0;
+  if (!written) std::fprintf(stderr, "cannot write the verdict to stdout\n");
+  const int code = std::max(ExitCode(OverallVerdict(files)), written ? 0 : 1);
   if (options.trace_file.empty()) return code;
   return WriteAfterVerdict(code, [&] { WriteFile(options.trace_file, tracer.Text()); });
 }

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "services/fleetctl/soak/soak_words.h"
+#include "services/fleetctl/soak/soak_format.h"
 #include "services/statistics/distributions.h"
 #include "services/statistics/two_sample.h"
 
@@ -77,8 +77,8 @@ void CompareQuantile(const SoakHistogram& before, const SoakHistogram& after, do
   const std::int64_t is = after.histogram.Quantile(p);
   const auto number = [](std::int64_t value) { return static_cast<double>(value); };
   figures->Add({.figure = {.what = fmt::format("{}, {}", before.name, part),
-                           .before = ValueWords(before.unit, was),
-                           .after = ValueWords(after.unit, is)},
+                           .before = FormatValue(before.unit, was),
+                           .after = FormatValue(after.unit, is)},
                 .p_worse = p_worse,
                 .p_better = p_better,
                 .may_be_worse = GrewEnough(number(was), number(is)),
@@ -135,8 +135,8 @@ void CompareSlope(const ResourceSlope& was, const ResourceSlope& is, Figures* fi
   }
   const double least = LeastOf(was.kind);
   figures->Add({.figure = {.what = fmt::format("{} {} an hour", was.process, ToString(was.kind)),
-                           .before = ResourceWords(was.kind, was.slope.per_hour),
-                           .after = ResourceWords(is.kind, is.slope.per_hour)},
+                           .before = FormatResource(was.kind, was.slope.per_hour),
+                           .after = FormatResource(is.kind, is.slope.per_hour)},
                 .p_worse = p_worse,
                 .p_better = p_better,
                 .may_be_worse = rise >= least && is.slope.low_per_hour > 0,
@@ -167,8 +167,8 @@ void CompareTimes(const std::string& what, const std::vector<double>& was,
   const double median_before = *MedianOf(was);
   const double median_after = *MedianOf(is);
   figures->Add({.figure = {.what = what,
-                           .before = SecondsWords(median_before),
-                           .after = SecondsWords(median_after)},
+                           .before = FormatSeconds(median_before),
+                           .after = FormatSeconds(median_after)},
                 .p_worse = statistics::MannWhitneyGreater(was, is),
                 .p_better = statistics::MannWhitneyGreater(is, was),
                 .may_be_worse = GrewEnough(median_before, median_after),

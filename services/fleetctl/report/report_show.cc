@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kNameColumns = 31;
 constexpr std::size_t kFigureColumns = 15;
 
-std::string ChanceWords(const std::optional<double>& p) {
+std::string FormatChance(const std::optional<double>& p) {
   if (!p) return "-";
   return *p < 0.0001 ? "<0.0001" : fmt::format("{:.4f}", *p);
 }
@@ -44,7 +44,7 @@ std::string ToText(const SoakComparison& comparison, bool all) {
       if (!all) continue;
     }
     text += FigureLine(ToString(figure.change), figure.what, figure.before, figure.after,
-                       ChanceWords(figure.p));
+                       FormatChance(figure.p));
   }
   const auto count = [&comparison](Change change) {
     return std::ranges::count(comparison.figures, change, &ComparedFigure::change);

@@ -67,7 +67,7 @@ void FleetWatch::FoldEvent(const WorldEvent& event) {
     vehicles_.erase(event.vehicle);
     silent_.erase(event.vehicle);
   }
-  if (event.kind == EventKind::kFaultDue && event.vehicle != kNobody) {
+  if (event.kind == EventKind::kFaultDue && event.vehicle != kNoVehicle) {
     due_kills_.push_back(event.vehicle);
     killed_.push_back(event.vehicle);
     silent_.insert(event.vehicle);
@@ -133,7 +133,7 @@ std::vector<VehicleId> FleetWatch::VehiclesOf(EventKind kind) const {
 }
 
 // Vehicles that stand in their goals, or did before they were put on a start pose again. In its
-// goal a vehicle does not halt, so kWentOn without a halt before means that it left the goal.
+// goal a vehicle does not halt, so kResumed without a halt before means that it left the goal.
 std::vector<VehicleId> FleetWatch::Arrived() const {
   std::set<VehicleId> arrived;
   std::set<VehicleId> in_goal;
@@ -143,7 +143,7 @@ std::vector<VehicleId> FleetWatch::Arrived() const {
       in_goal.insert(event.vehicle);
     } else if (event.kind == EventKind::kHalted) {
       in_goal.erase(event.vehicle);
-    } else if (event.kind == EventKind::kWentOn && in_goal.erase(event.vehicle) > 0) {
+    } else if (event.kind == EventKind::kResumed && in_goal.erase(event.vehicle) > 0) {
       arrived.erase(event.vehicle);
     }
   }

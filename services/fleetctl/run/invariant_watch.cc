@@ -8,8 +8,8 @@ namespace giveway::fleetctl {
 namespace {
 
 sim::InvariantLimits LimitsFromOutside(const Scenario& scenario) {
-  sim::InvariantLimits limits = sim::LimitsFor(scenario, VehicleSight::kHeldTicks, true);
-  limits.stale_ticks = VehicleSight::kHeldTicks;
+  sim::InvariantLimits limits = sim::LimitsFor(scenario, VehicleObservation::kHeldTicks, true);
+  limits.stale_ticks = VehicleObservation::kHeldTicks;
   limits.arriving = scenario.expect.arrived;
   return limits;
 }
@@ -19,7 +19,7 @@ sim::InvariantLimits LimitsFromOutside(const Scenario& scenario) {
 InvariantWatch::InvariantWatch(const Scenario& scenario)
     : scenario_(scenario), invariants_(scenario_, LimitsFromOutside(scenario_)) {
   for (const VehicleOptions& vehicle : scenario_.vehicles) {
-    sights_.emplace(vehicle.id, VehicleSight(vehicle));
+    observations_.emplace(vehicle.id, VehicleObservation(vehicle));
   }
 }
 
@@ -28,17 +28,17 @@ void InvariantWatch::Fold(const link::Observed& observed) {
   for (const Truth& truth : observed.truths) FoldTruth(truth);
   for (const WorldEvent& event : observed.events) FoldEvent(event);
   for (const ReceivedBeacon& received : observed.beacons) {
-    const auto sight = sights_.find(received.beacon.vehicle);
-    const bool sound = received.crc_valid && received.name_valid && sight != sights_.end();
+    const auto sight = observations_.find(received.beacon.vehicle);
+    const bool sound = received.crc_valid && received.name_valid && sight != observations_.end();
     if (sound && IsOfThisWorld(received.beacon.world_epoch)) {
       sight->second.Take(received.beacon, newest_);
     }
   }
   for (const VehicleStatus& status : observed.statuses) {
-    const auto sight = sights_.find(status.vehicle);
-    if (sight != sights_.end() && IsOfThisWorld(status.epoch)) sight->second.Take(status);
+    const auto sight = observations_.find(status.vehicle);
+    if (sight != observations_.end() && IsOfThisWorld(status.epoch)) sight->second.Take(status);
   }
-  if (Number(newest_) > kLagTicks) JudgeUntil(Tick{Number(newest_) - kLagTicks});
+  if (Number(newest_) > kLagTicks) EvaluateUntil(Tick{Number(newest_) - kLagTicks});
 }
 
 // Only of an open fleet: the others are known from the start.
@@ -49,7 +49,7 @@ void InvariantWatch::Admit(const RosterEntry& entry) {
   VehicleOptions options = scenario_.spawns[entry.spawn - 1];
   options.id = entry.vehicle;
   invariants_.Admit(options);
-  sights_.insert_or_assign(options.id, VehicleSight(options));
+  observations_.insert_or_assign(options.id, VehicleObservation(options));
   spawns_[entry.vehicle] = entry.spawn;
 }
 
@@ -62,8 +62,8 @@ void InvariantWatch::FoldTruth(const Truth& truth) {
     first_time_s_ = truth.time_s;
     first_ = truth.tick;
   }
-  const auto sight = sights_.find(truth.vehicle);
-  if (sight != sights_.end()) sight->second.Take(truth);
+  const auto sight = observations_.find(truth.vehicle);
+  if (sight != observations_.end()) sight->second.Take(truth);
 }
 
 void InvariantWatch::FoldEvent(const WorldEvent& event) {
@@ -75,18 +75,18 @@ void InvariantWatch::FoldEvent(const WorldEvent& event) {
   }
 }
 
-void InvariantWatch::JudgeUntil(Tick last) {
+void InvariantWatch::EvaluateUntil(Tick last) {
   if (last_ != kNoTick) last = std::min(last, last_);
-  for (; next_ != kNoTick && next_ <= last; next_ = After(next_, 1)) Judge(next_);
+  for (; next_ != kNoTick && next_ <= last; next_ = After(next_, 1)) Evaluate(next_);
 }
 
 double InvariantWatch::TimeOf(Tick tick) const {
   return first_time_s_ + TicksBetween(first_, tick) * Seconds(scenario_.tick_period);
 }
 
-void InvariantWatch::Judge(Tick tick) {
+void InvariantWatch::Evaluate(Tick tick) {
   NoteComingsAndGoings(tick);
-  if (!Look(tick)) {
+  if (!Observe(tick)) {
     ++ticks_unseen_;
     return;
   }
@@ -99,8 +99,8 @@ void InvariantWatch::Judge(Tick tick) {
 void InvariantWatch::NoteComingsAndGoings(Tick tick) {
   for (; noted_ < events_.size() && events_[noted_].tick <= tick; ++noted_) {
     const WorldEvent& event = events_[noted_];
-    const auto sight = sights_.find(event.vehicle);
-    if (sight == sights_.end()) continue;
+    const auto sight = observations_.find(event.vehicle);
+    if (sight == observations_.end()) continue;
     const bool gone = event.kind == EventKind::kSilent || event.kind == EventKind::kLeft ||
                       event.kind == EventKind::kFaultDue;
     if (gone || event.kind == EventKind::kJoined) sight->second.SetLives(!gone);
@@ -108,10 +108,10 @@ void InvariantWatch::NoteComingsAndGoings(Tick tick) {
 }
 
 // False if something about one of them is not known.
-bool InvariantWatch::Look(Tick tick) {
+bool InvariantWatch::Observe(Tick tick) {
   seen_.clear();
   bool whole = true;
-  for (auto& [vehicle, sight] : sights_) {
+  for (auto& [vehicle, sight] : observations_) {
     const std::optional<sim::Observed> seen = sight.At(tick);
     whole = whole && seen.has_value();
     if (seen) seen_.push_back(*seen);
@@ -120,8 +120,8 @@ bool InvariantWatch::Look(Tick tick) {
 }
 
 void InvariantWatch::Finish(bool came_to_its_end) {
-  JudgeUntil(newest_);
-  if (came_to_its_end && ticks_judged_ > 0 && seen_.size() == sights_.size()) {
+  EvaluateUntil(newest_);
+  if (came_to_its_end && ticks_judged_ > 0 && seen_.size() == observations_.size()) {
     invariants_.Finish(newest_, seen_);
   }
 }

@@ -6,7 +6,8 @@
 //
 // Limits are wider than in a virtual run without loss, each for its own cause:
 //  - brains miss beacons and scans as they do with a lossy radio: LimitsFor;
-//  - an observation may be VehicleSight::kHeldTicks old: a wait cycle or a halt of all vehicles may
+//  - an observation may be VehicleObservation::kHeldTicks old: a wait cycle or a halt of all
+//  vehicles may
 //    last that much longer, a priority key may be that much older, and braking may start that much
 //    later.
 #pragma once
@@ -15,7 +16,7 @@
 #include <map>
 #include <vector>
 
-#include "services/fleetctl/run/vehicle_sight.h"
+#include "services/fleetctl/run/vehicle_observation.h"
 #include "services/link/observer_link.h"
 #include "services/report/report.h"
 #include "services/types/scenario.h"
@@ -45,15 +46,15 @@ class InvariantWatch {
   void FoldTruth(const Truth& truth);
   void FoldEvent(const WorldEvent& event);
   bool IsOfThisWorld(WorldEpoch epoch) const { return epoch == epoch_; }
-  void JudgeUntil(Tick last);
-  void Judge(Tick tick);
+  void EvaluateUntil(Tick last);
+  void Evaluate(Tick tick);
   double TimeOf(Tick tick) const;  // since the start signal
   void NoteComingsAndGoings(Tick tick);
-  bool Look(Tick tick);
+  bool Observe(Tick tick);
 
   Scenario scenario_;
   sim::Invariants invariants_;
-  std::map<VehicleId, VehicleSight> sights_;
+  std::map<VehicleId, VehicleObservation> observations_;
   std::map<VehicleId, std::uint32_t> spawns_;  // of vehicles that the scenario does not name
   WorldEpoch epoch_ = kNoEpoch;                // of the first world heard
   Tick newest_ = kNoTick;                      // of any truth

@@ -11,7 +11,7 @@ constexpr double kPartsPerMillion = 1e6;
 
 HistogramUnit UnitOf(DriveFigure figure) {
   switch (figure) {
-    case DriveFigure::kReactionWay:
+    case DriveFigure::kReactionDistance:
       return HistogramUnit::kMicrometres;
     case DriveFigure::kReactionShare:
       return HistogramUnit::kPartsPerMillion;
@@ -25,9 +25,9 @@ HistogramUnit UnitOf(DriveFigure figure) {
 void FleetTiming::Fold(const VehicleStatus& status, double time_s) {
   DriveFigures& before = before_[status.vehicle];
   const DriveFigures& now = status.timing;
-  const bool began_anew = now.Of(DriveFigure::kTurn).count < before.Of(DriveFigure::kTurn).count ||
-                          now.budget_spent < before.budget_spent;
-  if (began_anew) before = {};
+  const bool restarted = now.Of(DriveFigure::kTurn).count < before.Of(DriveFigure::kTurn).count ||
+                         now.budget_spent < before.budget_spent;
+  if (restarted) before = {};
   for (std::size_t i = 0; i < kDriveFigures; ++i) TakeNewest(status, i, time_s);
   budget_spent_ += now.budget_spent - before.budget_spent;
   if (now.narrowest && now.narrowest != before.narrowest &&

@@ -20,11 +20,11 @@ void NearMisses::Fold(std::span<const Truth> truths) {
       continue;
     }
     newest_[truth.vehicle] = truth;
-    Look(truth);
+    Observe(truth);
   }
 }
 
-void NearMisses::Look(const Truth& truth) {
+void NearMisses::Observe(const Truth& truth) {
   const Vec2 here = truth.world_from_body.position_world;
   for (const auto& [other, theirs] : newest_) {
     if (other == truth.vehicle || std::abs(theirs.time_s - truth.time_s) > kSameTime_s) continue;

@@ -33,7 +33,7 @@ class NearMisses {
   std::optional<NearMiss> Nearest() const { return nearest_; }
 
  private:
-  void Look(const Truth& truth);
+  void Observe(const Truth& truth);
   void Keep(const NearMiss& miss);
 
   std::map<VehicleId, double> radius_m_;

@@ -69,9 +69,9 @@ void RingKeeper::Keep(SteadyTime now, double time_s) {
   }
   for (const VehicleId vehicle : fleet_) {
     if (!link_.Reaches(vehicle)) continue;
-    const AdminOrder order{.vehicle = vehicle,
-                           .number = link::OperatorLink::NextNumber(),
-                           .kind = OrderKind::kKeepRing};
+    const AdminRequest order{.vehicle = vehicle,
+                             .number = link::OperatorLink::NextNumber(),
+                             .kind = AdminRequestKind::kKeepRing};
     orders_.Add(order.number, vehicle, kept_.size());
     if (link_.Send(order)) ++kept.ordered;
   }

@@ -34,7 +34,7 @@ class RingOrders {
 
  private:
   struct Waiting {
-    VehicleId vehicle = kNobody;
+    VehicleId vehicle = kNoVehicle;
     std::size_t keep = 0;
   };
   bool has_key_;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "services/fleetctl/output/html_text.h"
-#include "services/fleetctl/soak/soak_words.h"
+#include "services/fleetctl/soak/soak_format.h"
 #include "services/runtime/utf8.h"
 
 namespace giveway::fleetctl {
@@ -59,9 +59,9 @@ class HtmlTable {
   std::vector<std::string> rows_;
 };
 
-std::string WhoWords(VehicleId vehicle, VehicleId other) {
-  if (vehicle == kNobody) return "-";
-  if (other == kNobody) return fmt::format("{}", Number(vehicle));
+std::string FormatWho(VehicleId vehicle, VehicleId other) {
+  if (vehicle == kNoVehicle) return "-";
+  if (other == kNoVehicle) return fmt::format("{}", Number(vehicle));
   return fmt::format("{} and {}", Number(vehicle), Number(other));
 }
 
@@ -89,9 +89,9 @@ std::string EachFault(const SoakResult& result) {
     table.Cell(fault.target);
     table.Cell(fault.observed ? "yes: " + fault.observed_how : "NO: " + fault.observed_how,
                fault.observed ? "text" : "text bad");
-    table.Cell(SecondsWords(fault.noticed_after_s), late ? "bad" : "");
-    table.Cell(SecondsWords(fault.promised_s));
-    table.Cell(SecondsWords(fault.recovered_after_s));
+    table.Cell(FormatSeconds(fault.noticed_after_s), late ? "bad" : "");
+    table.Cell(FormatSeconds(fault.promised_s));
+    table.Cell(FormatSeconds(fault.recovered_after_s));
     table.Cell(NameOf(fault));
   }
   return table.Html(result.faults.size());
@@ -105,7 +105,7 @@ std::string HistogramSection(const SoakResult& result) {
   if (result.histograms.empty()) return "";
   HtmlTable table({"figure", "values", "median", "99 %", "99.9 %", "max", "<budgets"});
   for (const SoakHistogram& measured : result.histograms) {
-    const auto cell = [&](std::int64_t value) { table.Cell(ValueWords(measured.unit, value)); };
+    const auto cell = [&](std::int64_t value) { table.Cell(FormatValue(measured.unit, value)); };
     const Histogram& histogram = measured.histogram;
     table.Row();
     table.Cell(measured.name);
@@ -114,7 +114,7 @@ std::string HistogramSection(const SoakResult& result) {
     cell(histogram.Quantile(0.99));
     cell(histogram.Quantile(0.999));
     cell(histogram.Max());
-    table.Cell(fmt::format("{}", fmt::join(BudgetWords(measured), "; ")),
+    table.Cell(fmt::format("{}", fmt::join(FormatBudgets(measured), "; ")),
                WithinBudgets(measured) ? "text good" : "text bad");
   }
   return "<h2>Figures against budgets</h2>\n" + table.Html(result.histograms.size());
@@ -127,7 +127,7 @@ std::string ViolationSection(const SoakResult& result) {
        std::span(result.violations).first(std::min(result.violations.size(), kMostRowsShown))) {
     table.Row();
     table.Cell(fmt::format("{:.2f} s", violation.time_s));
-    table.Cell(WhoWords(violation.vehicle, violation.other));
+    table.Cell(FormatWho(violation.vehicle, violation.other));
     table.Cell(violation.invariant, "bad");
     table.Cell(violation.words, "text");
     table.Cell(violation.fault.empty() ? "-" : violation.fault);
@@ -148,12 +148,12 @@ std::string FaultSection(const SoakResult& result) {
     table.Cell(fmt::format("{}", summary.observed),
                summary.observed == summary.planned ? "good" : "bad");
     table.Count(summary.noticed_s.size());
-    table.Cell(SecondsWords(MedianOf(summary.noticed_s)));
-    table.Cell(SecondsWords(GreatestOf(summary.noticed_s)));
+    table.Cell(FormatSeconds(MedianOf(summary.noticed_s)));
+    table.Cell(FormatSeconds(GreatestOf(summary.noticed_s)));
     table.Cell(fmt::format("{}", summary.late), summary.late == 0 ? "" : "bad");
     table.Count(summary.recovered_s.size());
-    table.Cell(SecondsWords(MedianOf(summary.recovered_s)));
-    table.Cell(SecondsWords(GreatestOf(summary.recovered_s)));
+    table.Cell(FormatSeconds(MedianOf(summary.recovered_s)));
+    table.Cell(FormatSeconds(GreatestOf(summary.recovered_s)));
   }
   std::string html = "<h2>Faults</h2>\n" + table.Html(summaries.size()) + "<h2>Each fault</h2>\n" +
                      EachFault(result);
@@ -176,11 +176,11 @@ std::string SlopeSection(const SoakResult& result) {
     table.Cell(row->process);
     table.Count(row->life + 1);
     table.Cell(ToString(row->kind));
-    table.Cell(ResourceWords(row->kind, row->last));
-    table.Cell(ResourceWords(row->kind, row->slope.per_hour));
-    table.Cell(fmt::format("{} to {}", ResourceWords(row->kind, row->slope.low_per_hour),
-                           ResourceWords(row->kind, row->slope.high_per_hour)));
-    table.Cell(SpanWords(row->slope.spans_s));
+    table.Cell(FormatResource(row->kind, row->last));
+    table.Cell(FormatResource(row->kind, row->slope.per_hour));
+    table.Cell(fmt::format("{} to {}", FormatResource(row->kind, row->slope.low_per_hour),
+                           FormatResource(row->kind, row->slope.high_per_hour)));
+    table.Cell(FormatSpan(row->slope.spans_s));
     table.Cell(row->leak ? "LEAK" : "no", row->leak ? "bad" : "");
   }
   return "<h2>Growth of the processes</h2>\n" + table.Html(result.slopes.size());
@@ -193,7 +193,7 @@ std::string NearMissSection(const SoakResult& result) {
        Ordered(result.near_misses, [](const NearMiss& near) { return near.distance_m; })) {
     table.Row();
     table.Cell(fmt::format("{:.3f} m", miss->distance_m));
-    table.Cell(WhoWords(miss->vehicle, miss->other));
+    table.Cell(FormatWho(miss->vehicle, miss->other));
     table.Cell(fmt::format("{:.1f} s", miss->time_s));
     table.Cell(fmt::format("{:.2f}, {:.2f} m", miss->x_m, miss->y_m));
   }

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "services/fleetctl/soak/soak_format.h"
 #include "services/fleetctl/soak/soak_html.h"
-#include "services/fleetctl/soak/soak_words.h"
 
 namespace giveway::fleetctl {
 namespace {

@@ -9,8 +9,8 @@
 #include <map>
 
 #include "services/fleetctl/process/gnuplot.h"
+#include "services/fleetctl/soak/soak_format.h"
 #include "services/fleetctl/soak/soak_page.h"
-#include "services/fleetctl/soak/soak_words.h"
 
 namespace giveway::fleetctl {
 namespace {

@@ -55,8 +55,8 @@ std::string NameOf(const SoakFault& fault);
 
 struct SoakViolation {
   double time_s = 0;
-  VehicleId vehicle = kNobody;  // at fault, or first concerned
-  VehicleId other = kNobody;
+  VehicleId vehicle = kNoVehicle;  // at fault, or first concerned
+  VehicleId other = kNoVehicle;
   std::string invariant;  // "contact", or the promise: "detection", "recovery"
   std::string words;      // what was observed, as text
   std::string fault;      // NameOf the preceding fault; empty: none
@@ -65,8 +65,8 @@ struct SoakViolation {
 // Two bodies, shell to shell, that came near each other, where the nearer one was.
 struct NearMiss {
   double time_s = 0;
-  VehicleId vehicle = kNobody;
-  VehicleId other = kNobody;
+  VehicleId vehicle = kNoVehicle;
+  VehicleId other = kNoVehicle;
   double x_m = 0;  // world
   double y_m = 0;
   double distance_m = 0;
@@ -75,7 +75,7 @@ struct NearMiss {
 // A vehicle's mode from then on: "drive", "halt", "gone" ...
 struct ModeChange {
   double time_s = 0;
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   std::string mode;
 };
 
@@ -155,7 +155,7 @@ struct MachinePauses {
 // The reaction that left the least share of its free distance.
 struct NarrowestMargin {
   double time_s = 0;  // at which it was reported
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   double reaction_m = 0;  // driven from cause to wheels that obey
   double free_m = 0;      // that there was
   double share_left = 0;  // of free_m; alarm budget_spent below a fifth

@@ -277,7 +277,7 @@ void SoakSession::NoteProcessEffects() {
 void SoakSession::HearLines() {
   for (const auto& [member, line] : processes_.TakeLines()) {
     if (member.kind != MemberKind::kVehicle) continue;
-    if (const auto word = WordOf(line)) watch_.Fold(VehicleId{member.number}, *word);
+    if (const auto word = LogEventOf(line)) watch_.Fold(VehicleId{member.number}, *word);
   }
 }
 

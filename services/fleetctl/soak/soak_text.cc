@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "services/fleetctl/soak/soak_format.h"
 #include "services/fleetctl/soak/soak_page.h"
-#include "services/fleetctl/soak/soak_words.h"
 #include "services/runtime/utf8.h"
 
 namespace giveway::fleetctl {
@@ -43,12 +43,12 @@ std::string HistogramLines(const SoakResult& result) {
   std::string lines;
   for (const SoakHistogram& measured : result.histograms) {
     const auto at = [&measured](double p) {
-      return ValueWords(measured.unit, measured.histogram.Quantile(p));
+      return FormatValue(measured.unit, measured.histogram.Quantile(p));
     };
     std::string text = fmt::format("median {}, 99 % {}, max {} of {}", at(0.5), at(0.99),
-                                   ValueWords(measured.unit, measured.histogram.Max()),
+                                   FormatValue(measured.unit, measured.histogram.Max()),
                                    measured.histogram.Count());
-    for (const std::string& budget : BudgetWords(measured)) text += "; " + budget;
+    for (const std::string& budget : FormatBudgets(measured)) text += "; " + budget;
     lines += Entry(measured.name, text, 18);
   }
   return lines;
@@ -60,12 +60,13 @@ std::string FaultLines(const SoakResult& result) {
     std::string text = fmt::format("{} of {} seen", summary.observed, summary.planned);
     if (!summary.noticed_s.empty()) {
       text += fmt::format(", noticed {} (latest {}), {} late",
-                          SecondsWords(MedianOf(summary.noticed_s)),
-                          SecondsWords(GreatestOf(summary.noticed_s)), summary.late);
+                          FormatSeconds(MedianOf(summary.noticed_s)),
+                          FormatSeconds(GreatestOf(summary.noticed_s)), summary.late);
     }
     if (!summary.recovered_s.empty()) {
-      text += fmt::format(", recovered {} (latest {})", SecondsWords(MedianOf(summary.recovered_s)),
-                          SecondsWords(GreatestOf(summary.recovered_s)));
+      text +=
+          fmt::format(", recovered {} (latest {})", FormatSeconds(MedianOf(summary.recovered_s)),
+                      FormatSeconds(GreatestOf(summary.recovered_s)));
     }
     lines += Entry("  " + summary.kind, text, 22);
   }
@@ -93,7 +94,7 @@ std::string ViolationLines(const SoakResult& result) {
 std::string ToText(const SoakResult& result) {
   const std::string rule(kTextColumns, '-');
   std::string text = rule + "\n";
-  text += Entry("", VerdictWords(result) + "  (" + result.scenario + ")", 0) + rule + "\n";
+  text += Entry("", FormatVerdict(result) + "  (" + result.scenario + ")", 0) + rule + "\n";
   for (const SummaryRow& row : SummaryOf(result)) {
     text += Entry(row.label, row.text, 18);
     if (row.label == "faults") text += FaultLines(result);

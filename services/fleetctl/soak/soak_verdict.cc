@@ -45,7 +45,7 @@ std::optional<fleetctl::Fault> AsOfStopwatch(Kind kind) {
 std::optional<std::size_t> FaultBehind(std::span<const faults::Fault> schedule,
                                        std::span<const FaultCourse> courses, VehicleId vehicle,
                                        SteadyTime at) {
-  std::optional<std::size_t> struck_it;
+  std::optional<std::size_t> injected;
   std::optional<std::size_t> any;
   for (std::size_t i = 0; i < courses.size(); ++i) {
     const FaultCourse& course = courses[i];
@@ -54,24 +54,25 @@ std::optional<std::size_t> FaultBehind(std::span<const faults::Fault> schedule,
     any = i;
     const faults::Target& target = schedule[i].target;
     const bool everyone = target.what != faults::Target::What::kVehicle;
-    if (everyone || target.vehicle == vehicle) struck_it = i;
+    if (everyone || target.vehicle == vehicle) injected = i;
   }
-  return struck_it ? struck_it : any;
+  return injected ? injected : any;
 }
 
-class Judging {
+class SoakEvaluation {
  public:
-  Judging(const SoakEvidence& evidence, SoakResult* result) : from_(evidence), result_(*result) {}
+  SoakEvaluation(const SoakEvidence& evidence, SoakResult* result)
+      : from_(evidence), result_(*result) {}
 
   void Run() {
-    TellFaults();
-    TellInvariants();
-    TellEnds();
-    TellHealing();
-    TellSlopes();
-    TellSlowLoops();
-    TellTiming();
-    TellAccounting();
+    CheckFaults();
+    CheckInvariants();
+    CheckEnds();
+    CheckHealing();
+    CheckSlopes();
+    CheckSlowLoops();
+    CheckTiming();
+    CheckAccounting();
     result_.near_misses = from_.seen.near_misses;
     result_.near_misses_counted = from_.seen.near_misses_counted;
     result_.modes = from_.seen.modes;
@@ -93,8 +94,8 @@ class Judging {
     return behind ? NameOf(result_.faults[*behind]) : std::string();
   }
 
-  void Tell(double time_s, VehicleId vehicle, std::string invariant, std::string words,
-            VehicleId other = kNobody) {
+  void AddViolation(double time_s, VehicleId vehicle, std::string invariant, std::string words,
+                    VehicleId other = kNoVehicle) {
     ++result_.violations_counted;
     if (result_.violations.size() == kMostListed) return;
     std::string fault = FaultNameBehind(vehicle, time_s);
@@ -106,12 +107,12 @@ class Judging {
     return from_.by_processes ? ExpectedOf(fault, from_.limits) : std::vector<Expected>();
   }
 
-  void TellFaults() {
+  void CheckFaults() {
     for (std::size_t i = 0; i < from_.schedule.size(); ++i) {
       result_.faults.push_back(FaultOf(from_.schedule[i], from_.seen.courses[i]));
     }
     for (std::size_t i = 0; i < from_.schedule.size(); ++i) {
-      JudgeFault(from_.schedule[i], from_.seen.courses[i], result_.faults[i]);
+      EvaluateFault(from_.schedule[i], from_.seen.courses[i], result_.faults[i]);
     }
     std::uint32_t planned = 0;
     for (const faults::Fault& fault : from_.schedule) {
@@ -122,72 +123,76 @@ class Judging {
   }
 
   SoakFault FaultOf(const faults::Fault& fault, const FaultCourse& course) const {
-    SoakFault told{.rule = fault.rule,
-                   .nth = fault.nth,
-                   .at_s = fault.at_s,
-                   .for_s = fault.for_s,
-                   .kind = std::string(faults::ToString(fault.kind)),
-                   .target = faults::ToString(fault.target),
-                   .observed = !course.effect.empty(),
-                   .observed_how = course.effect};
+    SoakFault entry{.rule = fault.rule,
+                    .nth = fault.nth,
+                    .at_s = fault.at_s,
+                    .for_s = fault.for_s,
+                    .kind = std::string(faults::ToString(fault.kind)),
+                    .target = faults::ToString(fault.target),
+                    .observed = !course.effect.empty(),
+                    .observed_how = course.effect};
     // Other faults may also make peers hear less of the target, but not each time: nothing is
     // promised.
     for (const std::optional<SteadyTime>& noticed : course.noticed) {
       if (!noticed || !AsOfStopwatch(fault.kind)) continue;
       const double after_s = Seconds(*noticed - *course.began);
-      if (!told.noticed_after_s || after_s < *told.noticed_after_s) told.noticed_after_s = after_s;
+      if (!entry.noticed_after_s || after_s < *entry.noticed_after_s)
+        entry.noticed_after_s = after_s;
     }
     for (const Expected& expected : Promised(fault)) {
       const double within_s = Seconds(expected.within);
-      told.promised_s = std::min(told.promised_s.value_or(within_s), within_s);
+      entry.promised_s = std::min(entry.promised_s.value_or(within_s), within_s);
     }
     if (course.ended && course.recovered) {
-      told.recovered_after_s = Seconds(*course.recovered - *course.ended);
+      entry.recovered_after_s = Seconds(*course.recovered - *course.ended);
     }
-    return told;
+    return entry;
   }
 
   // A fault that was cut off by the end of the run is not reported.
-  void JudgeFault(const faults::Fault& fault, const FaultCourse& course, const SoakFault& told) {
+  void EvaluateFault(const faults::Fault& fault, const FaultCourse& course,
+                     const SoakFault& entry) {
     if (!course.began) return;
-    if (!told.observed) {
-      Tell(fault.at_s, fault.target.vehicle, "effect",
-           fmt::format("{} was ordered, and no effect of it was seen", NameOf(told)));
+    if (!entry.observed) {
+      AddViolation(fault.at_s, fault.target.vehicle, "effect",
+                   fmt::format("{} was ordered, and no effect of it was seen", NameOf(entry)));
     }
     const bool lasted = !course.ended || fault.for_s <= 0 ||
                         Seconds(*course.ended - *course.began) >= fault.for_s * 0.9;
     if (!lasted) return;
     for (const Expected& expected : Promised(fault)) {
-      JudgeDetection(fault, course, expected, NameOf(told));
+      EvaluateDetection(fault, course, expected, NameOf(entry));
     }
   }
 
-  void JudgeDetection(const faults::Fault& fault, const FaultCourse& course,
-                      const Expected& expected, const std::string& name) {
+  void EvaluateDetection(const faults::Fault& fault, const FaultCourse& course,
+                         const Expected& expected, const std::string& name) {
     const auto& noticed = course.noticed[static_cast<std::size_t>(expected.mechanism)];
     const std::string_view mechanism = fleetctl::Name(expected.mechanism);
     const SteadyTime latest = *course.began + expected.within + kNoticing;
     if (!noticed) {
-      Tell(fault.at_s, fault.target.vehicle, "detection",
-           fmt::format("no peer noticed {} by its {}", name, mechanism));
+      AddViolation(fault.at_s, fault.target.vehicle, "detection",
+                   fmt::format("no peer noticed {} by its {}", name, mechanism));
     } else if (*noticed > latest + from_.longest_pause(*course.began, latest)) {
-      Tell(fault.at_s, fault.target.vehicle, "detection",
-           fmt::format("{} was noticed by its {} after {:.3f} s, promised are {:.3f} s", name,
-                       mechanism, Seconds(*noticed - *course.began), Seconds(expected.within)));
+      AddViolation(
+          fault.at_s, fault.target.vehicle, "detection",
+          fmt::format("{} was noticed by its {} after {:.3f} s, promised are {:.3f} s", name,
+                      mechanism, Seconds(*noticed - *course.began), Seconds(expected.within)));
     }
   }
 
-  void TellInvariants() {
+  void CheckInvariants() {
     for (const BrokenInvariant& broken : from_.seen.broken) {
-      Tell(broken.time_s, broken.what.vehicle, std::string(sim::Name(broken.what.invariant)),
-           fmt::format("tick {}", Number(broken.what.tick)), broken.what.other);
+      AddViolation(broken.time_s, broken.what.vehicle,
+                   std::string(sim::Name(broken.what.invariant)),
+                   fmt::format("tick {}", Number(broken.what.tick)), broken.what.other);
     }
     // Of those that were not listed only the number is known.
     result_.violations_counted += from_.seen.broken_counted - from_.seen.broken.size();
   }
 
   // A lowered limit may end a process.
-  void TellEnds() {
+  void CheckEnds() {
     for (const UnplannedEnd& end : from_.seen.ends) {
       const VehicleId vehicle{end.member.number};
       const auto behind = Behind(vehicle, end.time_s);
@@ -198,26 +203,27 @@ class Judging {
       }
       std::string words = fmt::format("{} ended: {}", NameOf(end.member), end.how);
       if (!end.last_lines.empty()) words += "; the last it said: " + end.last_lines.back();
-      Tell(end.time_s, vehicle, "process_ended", std::move(words));
+      AddViolation(end.time_s, vehicle, "process_ended", std::move(words));
     }
   }
 
-  void TellHealing() {
+  void CheckHealing() {
     SoakHistogram healing{.name = "healing",
                           .budgets = {{0.99, FromSeconds(kHealP99_s).count()},
                                       {1.0, FromSeconds(kHealWithin_s).count()}}};
     for (const auto& [vehicle, healed_s] : from_.seen.healing) {
       if (healed_s) healing.histogram.Add(FromSeconds(*healed_s));
       if (healed_s && *healed_s <= kHealWithin_s) continue;
-      Tell(from_.seen.lasted_s, vehicle, "healing",
-           healed_s ? fmt::format("drove {:.1f} s after the last fault, promised are {} s",
-                                  *healed_s, kHealWithin_s)
-                    : "did not drive again after the last fault");
+      AddViolation(from_.seen.lasted_s, vehicle, "healing",
+                   healed_s ? fmt::format("drove {:.1f} s after the last fault, promised are {} s",
+                                          *healed_s, kHealWithin_s)
+                            : "did not drive again after the last fault");
     }
     for (const auto& [vehicle, silent_s] : from_.seen.silent_s) {
       if (silent_s <= kHealWithin_s) continue;
-      Tell(from_.seen.lasted_s, vehicle, "silent",
-           fmt::format("no status was received of it for {:.1f} s after the last fault", silent_s));
+      AddViolation(
+          from_.seen.lasted_s, vehicle, "silent",
+          fmt::format("no status was received of it for {:.1f} s after the last fault", silent_s));
     }
     if (healing.histogram.Count() > 0) result_.histograms.push_back(std::move(healing));
     AddTimes("noticed", &SoakFault::noticed_after_s);
@@ -232,29 +238,31 @@ class Judging {
     if (times.histogram.Count() > 0) result_.histograms.push_back(std::move(times));
   }
 
-  void TellSlopes() {
+  void CheckSlopes() {
     result_.slopes = from_.seen.slopes;
     result_.lives_too_short = from_.seen.lives_too_short;
     for (const ResourceSlope& slope : result_.slopes) {
       if (!slope.leak) continue;
-      Tell(from_.seen.lasted_s, kNobody, "leak",
-           fmt::format("{} life {}: {} grows by {:.0f} an hour (95 %: {:.0f} to {:.0f})",
-                       slope.process, slope.life, ToString(slope.kind), slope.slope.per_hour,
-                       slope.slope.low_per_hour, slope.slope.high_per_hour));
+      AddViolation(
+          from_.seen.lasted_s, kNoVehicle, "leak",
+          fmt::format("{} life {}: {} grows by {:.0f} an hour (95 %: {:.0f} to {:.0f})",
+                      slope.process, slope.life, ToString(slope.kind), slope.slope.per_hour,
+                      slope.slope.low_per_hour, slope.slope.high_per_hour));
     }
   }
 
-  void TellSlowLoops() {
+  void CheckSlowLoops() {
     for (const auto& [vehicle, step_us] : from_.seen.step_p99_us) {
       if (step_us <= kMostStep_us) continue;
-      Tell(from_.seen.lasted_s, vehicle, "slow_loop",
-           fmt::format("a hundredth of its steps took {:.1f} ms of processor time and more, of a "
-                       "tick at most {:.0f}",
-                       step_us / 1000, kMostStep_us / 1000));
+      AddViolation(
+          from_.seen.lasted_s, vehicle, "slow_loop",
+          fmt::format("a hundredth of its steps took {:.1f} ms of processor time and more, of a "
+                      "tick at most {:.0f}",
+                      step_us / 1000, kMostStep_us / 1000));
     }
   }
 
-  void TellTiming() {
+  void CheckTiming() {
     const FleetTiming& timing = from_.seen.timing;
     for (SoakHistogram& measured : timing.Histograms()) {
       result_.histograms.push_back(std::move(measured));
@@ -263,15 +271,16 @@ class Judging {
     result_.budget_spent = timing.BudgetSpent();
     result_.timing_values_lost = timing.Missed();
     for (const auto& [vehicle, stale] : timing.Stale()) {
-      Tell(stale.first_s, vehicle, "stale_decision",
-           fmt::format("{} of its decisions used beacons older than they may be, the oldest of "
-                       "{:.0f} ms",
-                       stale.count, Milliseconds(stale.oldest)));
+      AddViolation(
+          stale.first_s, vehicle, "stale_decision",
+          fmt::format("{} of its decisions used beacons older than they may be, the oldest of "
+                      "{:.0f} ms",
+                      stale.count, Milliseconds(stale.oldest)));
     }
   }
 
   // A row contains only final counts: no excuse is needed.
-  void TellAccounting() {
+  void CheckAccounting() {
     for (const PairAccount& pair : from_.seen.accounting.Pairs()) {
       result_.accounting.push_back({.writer = fmt::format("vehicle {}", Number(pair.writer)),
                                     .reader = fmt::format("vehicle {}", Number(pair.reader)),
@@ -283,19 +292,19 @@ class Judging {
                                     .superseded = pair.sums.superseded,
                                     .lost = pair.sums.lost});
       if (pair.differing == 0) continue;
-      Tell(from_.seen.lasted_s, pair.reader, "accounting",
-           fmt::format("{} beacons of vehicle {} are not accounted for at vehicle {}",
-                       pair.differing, Number(pair.writer), Number(pair.reader)),
-           pair.writer);
+      AddViolation(from_.seen.lasted_s, pair.reader, "accounting",
+                   fmt::format("{} beacons of vehicle {} are not accounted for at vehicle {}",
+                               pair.differing, Number(pair.writer), Number(pair.reader)),
+                   pair.writer);
     }
     for (const VehicleId reader : from_.seen.accounting.WithoutAccount()) {
-      Tell(from_.seen.lasted_s, reader, "accounting",
-           "it reports no account of the beacons it accepted");
+      AddViolation(from_.seen.lasted_s, reader, "accounting",
+                   "it reports no account of the beacons it accepted");
     }
     for (const auto& [reader, beacons] : from_.seen.accounting.DepartedDiffering()) {
-      Tell(from_.seen.lasted_s, reader, "accounting",
-           fmt::format("{} beacons of those that left are not accounted for at vehicle {}", beacons,
-                       Number(reader)));
+      AddViolation(from_.seen.lasted_s, reader, "accounting",
+                   fmt::format("{} beacons of those that left are not accounted for at vehicle {}",
+                               beacons, Number(reader)));
     }
   }
 
@@ -342,6 +351,8 @@ std::vector<Expected> ExpectedOf(const faults::Fault& fault, const Limits& limit
   return expected;
 }
 
-void Judge(const SoakEvidence& evidence, SoakResult* result) { Judging(evidence, result).Run(); }
+void EvaluateSoak(const SoakEvidence& evidence, SoakResult* result) {
+  SoakEvaluation(evidence, result).Run();
+}
 
 }  // namespace giveway::fleetctl

@@ -33,6 +33,6 @@ std::vector<Expected> ExpectedOf(const faults::Fault& fault, const Limits& limit
 
 // Fills in faults, violations, near misses, histograms, slopes, pauses, verdict and reasons;
 // `result` already has what was run.
-void Judge(const SoakEvidence& evidence, SoakResult* result);
+void EvaluateSoak(const SoakEvidence& evidence, SoakResult* result);
 
 }  // namespace giveway::fleetctl

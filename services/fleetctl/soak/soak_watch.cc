@@ -95,7 +95,7 @@ bool IsWell(const VehicleStatus& status) {
     case Rule::kRangesStale:
     case Rule::kLeaving:
     case Rule::kPeerLost:
-    case Rule::kDeaf:
+    case Rule::kUnidentifiedMotion:
       return false;
     case Rule::kCruise:
       return std::abs(status.forward_m_s) > kMoves_m_s;
@@ -176,13 +176,13 @@ void SoakWatch::SeekEffect(std::size_t i, const VehicleStatus& status) {
   }
 }
 
-void SoakWatch::Fold(VehicleId by, const Word& word) {
+void SoakWatch::Fold(VehicleId by, const LogEvent& word) {
   for (const std::size_t i : open_) {
     const faults::Fault& fault = schedule_[i];
     FaultCourse& course = courses_[i];
     if (word.at < *course.began) continue;
-    if (word.kind == WordKind::kHangs && fault.kind == Kind::kHang && fault.target.vehicle == by &&
-        course.effect.empty()) {
+    if (word.kind == LogEventKind::kHangs && fault.kind == Kind::kHang &&
+        fault.target.vehicle == by && course.effect.empty()) {
       course.effect = "its log says that it hangs";
     }
     const std::optional<Mechanism> mechanism = MechanismOf(word.kind);

@@ -12,7 +12,7 @@
 
 #include "services/faults/fault.h"
 #include "services/fleetctl/soak/soak_seen.h"
-#include "services/fleetctl/stopwatch/stopwatch_words.h"
+#include "services/fleetctl/stopwatch/stopwatch_log_events.h"
 #include "services/link/observer_link.h"
 #include "services/types/fleet_facts.h"
 
@@ -31,7 +31,7 @@ class SoakWatch {
 
   void Fold(const link::Observed& observed, SteadyTime now);
   // A line of a vehicle's log.
-  void Fold(VehicleId by, const Word& word);
+  void Fold(VehicleId by, const LogEvent& word);
   void NoteBegin(std::size_t fault, SteadyTime now);
   void NoteEnd(std::size_t fault, SteadyTime now);
   // The supervisor observed it. The first message stays.

@@ -64,7 +64,7 @@ std::vector<StopwatchTask> TasksOf(const StopwatchOptions& options) {
   std::vector<Fault> faults = options.faults;
   std::stable_partition(faults.begin(), faults.end(), IsCut);
   for (const Fault fault : faults) {
-    const std::uint32_t most = IsCut(fault) ? VictimsOf(options.vehicles) : kTrialsAFleet;
+    const std::uint32_t most = IsCut(fault) ? TargetsOf(options.vehicles) : kTrialsAFleet;
     for (std::uint32_t done = 0; done < options.trials; done += most) {
       const std::uint64_t seed = (static_cast<std::uint64_t>(options.seed) << 32U) + tasks.size();
       tasks.push_back({fault, std::min(most, options.trials - done), seed,
@@ -100,7 +100,7 @@ class Session {
     report_.qos_file = spec_.qos_file;
     report_.limits = limits_;
     report_.library_major = link::LibraryMajor();
-    report_.cells = Judge(trials_, limits_);
+    report_.cells = EvaluateTrials(trials_, limits_);
     report_.took_s = Seconds(SteadyNow() - begin_);
     return std::move(report_);
   }
@@ -118,8 +118,8 @@ class Session {
         }
         StopwatchResult result;
         for (int i = 0; i < kAttempts && (i == 0 || result.too_soon); ++i) {
-          result =
-              Conduct(task, spec, limits_, monitor_, [this](std::size_t trials) { Tell(trials); });
+          result = Conduct(task, spec, limits_, monitor_,
+                           [this](std::size_t trials) { ShowProgress(trials); });
         }
         Gather(task, result);
       }
@@ -145,7 +145,7 @@ class Session {
   }
 
   // On stderr, with the remaining time at the pace so far.
-  void Tell(std::size_t trials) {
+  void ShowProgress(std::size_t trials) {
     const std::scoped_lock lock(mutex_);
     done_ += trials;
     if (done_ == 0) return;

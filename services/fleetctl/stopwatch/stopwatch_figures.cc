@@ -49,7 +49,7 @@ Distribution DistributionOf(std::vector<Nanoseconds> times) {
           times.back()};
 }
 
-std::vector<Cell> Judge(std::span<const Trial> trials, const Limits& limits) {
+std::vector<Cell> EvaluateTrials(std::span<const Trial> trials, const Limits& limits) {
   std::vector<Cell> cells;
   for (std::size_t f = 0; f < kFaults; ++f) {
     const auto fault = static_cast<Fault>(f);

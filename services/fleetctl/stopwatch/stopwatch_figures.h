@@ -53,6 +53,6 @@ struct Cell {
 };
 
 // A cell for each mechanism of each fault that was tried, in the order of the table.
-std::vector<Cell> Judge(std::span<const Trial> trials, const Limits& limits);
+std::vector<Cell> EvaluateTrials(std::span<const Trial> trials, const Limits& limits);
 
 }  // namespace giveway::fleetctl

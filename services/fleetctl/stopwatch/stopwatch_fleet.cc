@@ -39,12 +39,12 @@ void StopwatchFleet::Turn() {
   SleepUntil(SteadyNow() + kTurn);
   processes_.Poll();
   for (const auto& [member, line] : processes_.TakeLines()) {
-    const std::optional<Word> word = member == kTheWorld ? std::nullopt : WordOf(line);
-    if (!word) continue;
+    const std::optional<LogEvent> event = member == kTheWorld ? std::nullopt : LogEventOf(line);
+    if (!event) continue;
     const VehicleId vehicle{member.number};
-    if (word->kind == WordKind::kBlackoutsCount) blackouts_since_[vehicle] = word->at;
-    hearing_.Fold(vehicle, *word);
-    said_.push_back({vehicle, *word});
+    if (event->kind == LogEventKind::kBlackoutsCount) blackouts_since_[vehicle] = event->at;
+    hearing_.Fold(vehicle, *event);
+    events_.push_back({vehicle, *event});
   }
 }
 
@@ -59,9 +59,9 @@ void StopwatchFleet::Restart(VehicleId vehicle) {
   processes_.Restart(MemberOf(vehicle));
 }
 
-std::optional<std::string> StopwatchFleet::Loss(std::span<const VehicleId> struck) const {
-  const auto gone = processes_.FirstEndNotAllowed([struck](const MemberEnd& end) {
-    return std::ranges::any_of(struck, [&](VehicleId id) { return MemberOf(id) == end.member; });
+std::optional<std::string> StopwatchFleet::Loss(std::span<const VehicleId> injected) const {
+  const auto gone = processes_.FirstEndNotAllowed([injected](const MemberEnd& end) {
+    return std::ranges::any_of(injected, [&](VehicleId id) { return MemberOf(id) == end.member; });
   });
   if (!gone) return std::nullopt;
   std::string text = NameOf(gone->member) + " ended unasked: " + Describe(gone->how);

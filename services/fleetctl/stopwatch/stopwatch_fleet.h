@@ -10,14 +10,14 @@
 
 #include "services/fleetctl/process/domain_lock.h"
 #include "services/fleetctl/process/fleet_processes.h"
-#include "services/fleetctl/stopwatch/stopwatch_words.h"
+#include "services/fleetctl/stopwatch/stopwatch_log_events.h"
 
 namespace giveway::fleetctl {
 
 // One report of a vehicle.
-struct Said {
-  VehicleId by = kNobody;
-  Word word;
+struct VehicleLogEvent {
+  VehicleId by = kNoVehicle;
+  LogEvent event;
 };
 
 class StopwatchFleet {
@@ -33,9 +33,9 @@ class StopwatchFleet {
   // Sleeps for a moment and takes the reports.
   void Turn();
   const PeersHeard& WhoHears() const { return hearing_; }
-  // Since the last ForgetSaid, vehicle by vehicle, each in order.
-  const std::vector<Said>& Heard() const { return said_; }
-  void ForgetSaid() { said_.clear(); }
+  // Since the last ForgetEvents, vehicle by vehicle, each in order.
+  const std::vector<VehicleLogEvent>& Heard() const { return events_; }
+  void ForgetEvents() { events_.clear(); }
   // When a vehicle started to count its blackouts.
   std::optional<SteadyTime> BlackoutsSince(VehicleId vehicle) const;
 
@@ -46,14 +46,14 @@ class StopwatchFleet {
   // A new process for a vehicle whose last one has ended.
   void Restart(VehicleId vehicle);
   // A message if a process ended that no fault of the wave targets.
-  std::optional<std::string> Loss(std::span<const VehicleId> struck) const;
+  std::optional<std::string> Loss(std::span<const VehicleId> injected) const;
 
  private:
   DomainLock lock_;
   FleetProcesses processes_;
   std::map<VehicleId, SteadyTime> blackouts_since_;
   PeersHeard hearing_;
-  std::vector<Said> said_;
+  std::vector<VehicleLogEvent> events_;
 };
 
 }  // namespace giveway::fleetctl

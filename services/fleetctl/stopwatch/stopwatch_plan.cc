@@ -19,18 +19,19 @@ constexpr Nanoseconds kAfterward = milliseconds(1500);  // late events are still
 constexpr double kCell_m = 5;                           // between two squares
 constexpr double kSquare_m = 1;
 
-std::vector<Strike> PlanStrikes(std::vector<VehicleId> fleet, std::size_t victims, Random* dice) {
-  std::vector<Strike> strikes;
-  for (std::size_t i = 0; i < victims; ++i) {
+std::vector<FaultInjection> PlanInjections(std::vector<VehicleId> fleet, std::size_t targets,
+                                           Random* dice) {
+  std::vector<FaultInjection> injections;
+  for (std::size_t i = 0; i < targets; ++i) {
     const auto other = static_cast<std::size_t>(
         dice->Uniform(static_cast<double>(i), static_cast<double>(fleet.size())));
     std::swap(fleet[i], fleet[other]);
     const Nanoseconds exact = FromSeconds(dice->Uniform(0, Seconds(kWaveSpread)));
     // Whole milliseconds, as in a vehicle's blackouts.
-    strikes.push_back({fleet[i], std::chrono::floor<milliseconds>(exact)});
+    injections.push_back({fleet[i], std::chrono::floor<milliseconds>(exact)});
   }
-  std::ranges::sort(strikes, {}, &Strike::after);
-  return strikes;
+  std::ranges::sort(injections, {}, &FaultInjection::after);
+  return injections;
 }
 
 Nanoseconds LongestPromise(const Limits& limits) {
@@ -42,13 +43,13 @@ Nanoseconds LongestPromise(const Limits& limits) {
 }
 
 // "3.250s..15s": when the vehicle is faulted, in each wave.
-std::vector<std::string> WindowsOf(VehicleId victim, std::span<const Wave> waves) {
+std::vector<std::string> WindowsOf(VehicleId target, std::span<const Wave> waves) {
   std::vector<std::string> windows;
   for (const Wave& wave : waves) {
-    for (const Strike& strike : wave.strikes) {
-      if (strike.victim != victim) continue;
-      windows.push_back(fmt::format("blackout={:.3f}s..{:.3f}s", Seconds(wave.begin + strike.after),
-                                    Seconds(wave.end)));
+    for (const FaultInjection& injection : wave.injections) {
+      if (injection.target != target) continue;
+      windows.push_back(fmt::format("blackout={:.3f}s..{:.3f}s",
+                                    Seconds(wave.begin + injection.after), Seconds(wave.end)));
     }
   }
   return windows;
@@ -62,7 +63,7 @@ std::vector<VehicleId> StopwatchVehicles(std::uint32_t count) {
   return fleet;
 }
 
-std::uint32_t VictimsOf(std::size_t fleet) {
+std::uint32_t TargetsOf(std::size_t fleet) {
   return static_cast<std::uint32_t>(std::max<std::size_t>(1, fleet / 2));
 }
 
@@ -72,10 +73,10 @@ std::vector<Wave> PlanWaves(Fault fault, std::uint32_t trials, std::span<const V
   const Nanoseconds length = kWaveSpread + LongestPromise(limits) + kAfterward;
   std::vector<Wave> waves;
   for (std::uint32_t left = trials; left > 0;) {
-    const std::uint32_t struck = std::min(left, VictimsOf(fleet.size()));
-    waves.push_back(
-        {kFirstCut, kFirstCut + length, PlanStrikes({fleet.begin(), fleet.end()}, struck, &dice)});
-    left -= struck;
+    const std::uint32_t injected = std::min(left, TargetsOf(fleet.size()));
+    waves.push_back({kFirstCut, kFirstCut + length,
+                     PlanInjections({fleet.begin(), fleet.end()}, injected, &dice)});
+    left -= injected;
   }
   return waves;
 }

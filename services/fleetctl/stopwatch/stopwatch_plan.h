@@ -13,8 +13,8 @@
 namespace giveway::fleetctl {
 
 // One vehicle's fault, counted from the start of its wave.
-struct Strike {
-  VehicleId victim = kNobody;
+struct FaultInjection {
+  VehicleId target = kNoVehicle;
   Nanoseconds after{0};
 };
 
@@ -23,8 +23,8 @@ struct Strike {
 struct Wave {
   // For cuts since the start signal; any other wave starts when every vehicle is well.
   Nanoseconds begin{0};
-  Nanoseconds end{0};           // of the blackouts
-  std::vector<Strike> strikes;  // in the order of time
+  Nanoseconds end{0};                      // of the blackouts
+  std::vector<FaultInjection> injections;  // in the order of time
 };
 
 // Waves start at any phase of the beacons: their faults spread over this period.
@@ -32,13 +32,13 @@ inline constexpr Nanoseconds kWaveSpread{1'500'000'000};
 
 std::vector<VehicleId> StopwatchVehicles(std::uint32_t count);
 
-// `trials` faults in all. Cuts: at most VictimsOf, in one wave, because Fast DDS 2.9.1 does not
+// `trials` faults in all. Cuts: at most TargetsOf, in one wave, because Fast DDS 2.9.1 does not
 // always rediscover peers that were dropped on one side only, and the next wave would wait forever.
 std::vector<Wave> PlanWaves(Fault fault, std::uint32_t trials, std::span<const VehicleId> fleet,
                             const Limits& limits, std::uint64_t seed);
 
 // How many vehicles of a fleet are faulted in a wave, if there are trials left for them.
-std::uint32_t VictimsOf(std::size_t fleet);
+std::uint32_t TargetsOf(std::size_t fleet);
 
 // True of faults that are implemented as blackouts.
 constexpr bool IsCut(Fault fault) { return fault == Fault::kCut || fault == Fault::kOneWay; }

@@ -24,7 +24,7 @@ std::optional<Nanoseconds> LimitOf(Mechanism mechanism, const Limits& limits) {
       return limits.liveliness;
     case Mechanism::kLease:
       return limits.lease;
-    case Mechanism::kGoodBye:
+    case Mechanism::kLeaveNotice:
       return limits.beacon_period;
   }
   return std::nullopt;
@@ -40,13 +40,13 @@ std::string_view LimitName(Mechanism mechanism) {
       return "liveliness lease of the profile fleet_beacon_reader";
     case Mechanism::kLease:
       return "lease of the profile giveway_participant";
-    case Mechanism::kGoodBye:
+    case Mechanism::kLeaveNotice:
       return "a vehicle that is asked to stop checks once a beacon period, then says so";
   }
   return "";
 }
 
-std::string_view DutyWord(Duty duty) {
+std::string_view DutyLabel(Duty duty) {
   switch (duty) {
     case Duty::kNone:
       return "none";
@@ -109,7 +109,7 @@ std::string TableText(const Limits& limits) {
   for (const std::string_view name : kMechanismNames) text += fmt::format("{:<12}", name);
   for (std::size_t fault = 0; fault < kFaults; ++fault) {
     text += fmt::format("\n  {:<9}", kFaultNames[fault]);
-    for (const Duty duty : kDuties[fault]) text += fmt::format("{:<12}", DutyWord(duty));
+    for (const Duty duty : kDuties[fault]) text += fmt::format("{:<12}", DutyLabel(duty));
   }
   text += R"(
 

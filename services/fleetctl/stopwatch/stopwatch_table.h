@@ -26,11 +26,11 @@ inline constexpr std::size_t kFaults = 6;
 
 // How a vehicle learns that a peer is gone.
 enum class Mechanism : std::uint8_t {
-  kBeaconAge,   // its own limit on the age of the newest beacon
-  kDeadline,    // DEADLINE of the beacon reader
-  kLiveliness,  // LIVELINESS of the beacon reader
-  kLease,       // the participant's lease, or its end: the peer's writer is unmatched
-  kGoodBye,     // the last beacons of a vehicle that leaves
+  kBeaconAge,    // its own limit on the age of the newest beacon
+  kDeadline,     // DEADLINE of the beacon reader
+  kLiveliness,   // LIVELINESS of the beacon reader
+  kLease,        // the participant's lease, or its end: the peer's writer is unmatched
+  kLeaveNotice,  // the last beacons of a vehicle that leaves
 };
 inline constexpr std::size_t kMechanisms = 5;
 

@@ -30,8 +30,8 @@ class Trouble : public std::runtime_error {
 };
 
 // A target, and when it was faulted: for cuts by each watcher's own blackout clock.
-struct Struck {
-  VehicleId victim = kNobody;
+struct InjectedFault {
+  VehicleId target = kNoVehicle;
   std::map<VehicleId, SteadyTime> at;  // by watcher; empty until known
 };
 
@@ -49,7 +49,7 @@ class Conductor {
     try {
       for (const Wave& wave : waves_) {
         RunWave(wave);
-        note(wave.strikes.size());
+        note(wave.injections.size());
       }
     } catch (const Trouble& trouble) {
       result_.problem = trouble.what();
@@ -67,21 +67,21 @@ class Conductor {
   }
 
   void RunWave(const Wave& wave) {
-    victims_.clear();
+    targets_.clear();
     IsCut(task_.fault) ? WaitForCut(wave) : WaitUntilWell();
-    fleet_.ForgetSaid();
-    for (const Strike& strike : wave.strikes) victims_.push_back(strike.victim);
-    std::vector<Struck> struck = IsCut(task_.fault) ? Planned(wave) : StrikeAll(wave);
-    while (!IsAllTold(struck)) Turn();
-    for (const Struck& one : struck) result_.trials.push_back(TrialOf(one));
-    CountFalseAlarms(struck);
+    fleet_.ForgetEvents();
+    for (const FaultInjection& injection : wave.injections) targets_.push_back(injection.target);
+    std::vector<InjectedFault> injected = IsCut(task_.fault) ? Planned(wave) : InjectAll(wave);
+    while (!IsAllDetected(injected)) Turn();
+    for (const InjectedFault& one : injected) result_.trials.push_back(TrialOf(one));
+    CountFalseAlarms(injected);
     if (!IsCut(task_.fault)) Heal();
   }
 
   void Turn() {
     fleet_.Turn();
     if (Interrupts::Count() > 0) throw Trouble("interrupted");
-    if (const auto loss = fleet_.Loss(victims_)) throw Trouble(*loss);
+    if (const auto loss = fleet_.Loss(targets_)) throw Trouble(*loss);
   }
 
   void WaitUntil(SteadyTime when) {
@@ -91,11 +91,12 @@ class Conductor {
   void WaitUntilWell() {
     const SteadyTime limit = SteadyNow() + kUntilWell;
     for (;;) {
-      const auto deaf = fleet_.WhoHears().FirstDeaf(task_.fleet);
-      if (!deaf) return;
+      const auto unheard = fleet_.WhoHears().FirstUnheard(task_.fleet);
+      if (!unheard) return;
       if (SteadyNow() > limit) {
         throw Trouble(fmt::format("vehicle {} does not hear vehicle {} within {:.0f} s",
-                                  Number(deaf->first), Number(deaf->second), Seconds(kUntilWell)));
+                                  Number(unheard->first), Number(unheard->second),
+                                  Seconds(kUntilWell)));
       }
       Turn();
     }
@@ -119,71 +120,73 @@ class Conductor {
     }
     const SteadyTime ready = BeginOf(wave.begin) - 2 * kNoticing;
     WaitUntil(ready);
-    result_.too_soon = fleet_.WhoHears().FirstDeaf(task_.fleet).has_value();
+    result_.too_soon = fleet_.WhoHears().FirstUnheard(task_.fleet).has_value();
     if (result_.too_soon) throw Trouble("a link was cut before all vehicles received each other");
   }
 
   bool Watches(VehicleId vehicle) const {
-    return std::ranges::find(victims_, vehicle) == victims_.end();
+    return std::ranges::find(targets_, vehicle) == targets_.end();
   }
 
-  Struck StruckAt(VehicleId victim, const std::function<SteadyTime(VehicleId)>& when) const {
-    Struck struck{victim, {}};
+  InjectedFault InjectedAt(VehicleId target,
+                           const std::function<SteadyTime(VehicleId)>& when) const {
+    InjectedFault injected{target, {}};
     for (const VehicleId vehicle : task_.fleet) {
-      if (Watches(vehicle)) struck.at[vehicle] = when(vehicle);
+      if (Watches(vehicle)) injected.at[vehicle] = when(vehicle);
     }
-    return struck;
+    return injected;
   }
 
-  std::vector<Struck> Planned(const Wave& wave) {
-    std::vector<Struck> struck;
-    for (const Strike& strike : wave.strikes) {
-      struck.push_back(StruckAt(strike.victim, [&](VehicleId watcher) {
-        return *fleet_.BlackoutsSince(watcher) + wave.begin + strike.after;
+  std::vector<InjectedFault> Planned(const Wave& wave) {
+    std::vector<InjectedFault> injected;
+    for (const FaultInjection& injection : wave.injections) {
+      injected.push_back(InjectedAt(injection.target, [&](VehicleId watcher) {
+        return *fleet_.BlackoutsSince(watcher) + wave.begin + injection.after;
       }));
     }
     WaitUntil(BeginOf(wave.begin + kWaveSpread));
-    return struck;
+    return injected;
   }
 
-  std::vector<Struck> StrikeAll(const Wave& wave) {
-    std::vector<Struck> struck;
+  std::vector<InjectedFault> InjectAll(const Wave& wave) {
+    std::vector<InjectedFault> injected;
     const SteadyTime begin = SteadyNow() + kNoticing;
-    for (const Strike& strike : wave.strikes) {
-      WaitUntil(begin + strike.after);
-      const SteadyTime at = StrikeNow(strike.victim);
-      struck.push_back(StruckAt(strike.victim, [at](VehicleId) { return at; }));
+    for (const FaultInjection& injection : wave.injections) {
+      WaitUntil(begin + injection.after);
+      const SteadyTime at = InjectNow(injection.target);
+      injected.push_back(InjectedAt(injection.target, [at](VehicleId) { return at; }));
     }
-    return struck;
+    return injected;
   }
 
   // The time before the signal is sent: the time of the system call counts as detection. A loop
   // that is to hang reports this itself.
-  SteadyTime StrikeNow(VehicleId victim) {
+  SteadyTime InjectNow(VehicleId target) {
     const std::map<Fault, int> signals = {{Fault::kKill, SIGKILL},
                                           {Fault::kPause, SIGSTOP},
                                           {Fault::kExit, SIGTERM},
                                           {Fault::kHung, SIGUSR2}};
     const SteadyTime now = SteadyNow();
-    fleet_.Signal(victim, signals.at(task_.fault));
+    fleet_.Signal(target, signals.at(task_.fault));
     if (task_.fault != Fault::kHung) return now;
     while (SteadyNow() < now + kUntilWell) {
-      for (const Said& said : fleet_.Heard()) {
-        if (said.by == victim && said.word.kind == WordKind::kHangs) return said.word.at;
+      for (const VehicleLogEvent& logged : fleet_.Heard()) {
+        if (logged.by == target && logged.event.kind == LogEventKind::kHangs)
+          return logged.event.at;
       }
       Turn();
     }
     throw Trouble(
-        fmt::format("vehicle {} does not hang, though it was signalled to", Number(victim)));
+        fmt::format("vehicle {} does not hang, though it was signalled to", Number(target)));
   }
 
   // The watcher's first report by that mechanism after the fault.
-  std::optional<SteadyTime> SeenBy(VehicleId watcher, Mechanism mechanism, VehicleId victim,
+  std::optional<SteadyTime> SeenBy(VehicleId watcher, Mechanism mechanism, VehicleId target,
                                    SteadyTime at) const {
-    for (const Said& said : fleet_.Heard()) {
-      if (said.by == watcher && said.word.about == victim && said.word.at >= at &&
-          MechanismOf(said.word.kind) == mechanism) {
-        return said.word.at;
+    for (const VehicleLogEvent& logged : fleet_.Heard()) {
+      if (logged.by == watcher && logged.event.about == target && logged.event.at >= at &&
+          MechanismOf(logged.event.kind) == mechanism) {
+        return logged.event.at;
       }
     }
     return std::nullopt;
@@ -191,16 +194,16 @@ class Conductor {
 
   // True when everything that must be seen has been seen, or is too late; and what must not be seen
   // had its time.
-  bool IsAllTold(const std::vector<Struck>& struck) const {
+  bool IsAllDetected(const std::vector<InjectedFault>& injected) const {
     const SteadyTime now = SteadyNow();
     for (std::size_t i = 0; i < kMechanisms; ++i) {
       const auto mechanism = static_cast<Mechanism>(i);
       const Duty duty = DutyOf(task_.fault, mechanism, limits_);
       const Nanoseconds promised = PromisedWithin(mechanism, limits_);
-      for (const Struck& one : struck) {
+      for (const InjectedFault& one : injected) {
         for (const auto& [watcher, at] : one.at) {
           const bool waits_for_it = duty == Duty::kMust && now < at + promised + kLateStill &&
-                                    !SeenBy(watcher, mechanism, one.victim, at);
+                                    !SeenBy(watcher, mechanism, one.target, at);
           const bool gives_it_time = duty == Duty::kNone && now < at + promised + kNoticing;
           if (waits_for_it || gives_it_time) return false;
         }
@@ -209,12 +212,12 @@ class Conductor {
     return true;
   }
 
-  Trial TrialOf(const Struck& struck) const {
-    Trial trial{task_.fault, static_cast<std::uint32_t>(struck.at.size()), {}};
-    for (const auto& [watcher, at] : struck.at) {
+  Trial TrialOf(const InjectedFault& injected) const {
+    Trial trial{task_.fault, static_cast<std::uint32_t>(injected.at.size()), {}};
+    for (const auto& [watcher, at] : injected.at) {
       for (std::size_t i = 0; i < kMechanisms; ++i) {
         const auto mechanism = static_cast<Mechanism>(i);
-        const auto seen = SeenBy(watcher, mechanism, struck.victim, at);
+        const auto seen = SeenBy(watcher, mechanism, injected.target, at);
         if (!seen) continue;
         trial.sightings.push_back(
             {mechanism, *seen - at, monitor_.LongestPause(at - limits_.beacon_period, *seen)});
@@ -223,34 +226,34 @@ class Conductor {
     return trial;
   }
 
-  void CountFalseAlarms(const std::vector<Struck>& struck) {
-    for (const Said& said : fleet_.Heard()) {
-      if (!Watches(said.by) || !MechanismOf(said.word.kind)) continue;
-      const auto victim = std::ranges::find(struck, said.word.about, &Struck::victim);
-      const bool early = victim != struck.end() && said.word.at < victim->at.at(said.by);
-      if (victim == struck.end() || early) ++result_.false_alarms;
+  void CountFalseAlarms(const std::vector<InjectedFault>& injected) {
+    for (const VehicleLogEvent& logged : fleet_.Heard()) {
+      if (!Watches(logged.by) || !MechanismOf(logged.event.kind)) continue;
+      const auto target = std::ranges::find(injected, logged.event.about, &InjectedFault::target);
+      const bool early = target != injected.end() && logged.event.at < target->at.at(logged.by);
+      if (target == injected.end() || early) ++result_.false_alarms;
     }
   }
 
   // A vehicle that was dropped by its peers, or left, returns as a new process: see PlanWaves.
   void Heal() {
-    for (const VehicleId victim : victims_) {
-      task_.fault == Fault::kHung ? fleet_.Signal(victim, SIGUSR2) : Revive(victim);
+    for (const VehicleId target : targets_) {
+      task_.fault == Fault::kHung ? fleet_.Signal(target, SIGUSR2) : Revive(target);
     }
-    victims_.clear();
+    targets_.clear();
   }
 
-  void Revive(VehicleId victim) {
-    if (task_.fault == Fault::kPause) fleet_.Signal(victim, SIGKILL);
+  void Revive(VehicleId target) {
+    if (task_.fault == Fault::kPause) fleet_.Signal(target, SIGKILL);
     const SteadyTime limit = SteadyNow() + kEnding;
-    while (fleet_.IsRunning(victim)) {
+    while (fleet_.IsRunning(target)) {
       if (SteadyNow() > limit) {
         throw Trouble(
-            fmt::format("vehicle {} did not end, though it was asked to", Number(victim)));
+            fmt::format("vehicle {} did not end, though it was asked to", Number(target)));
       }
       Turn();
     }
-    fleet_.Restart(victim);
+    fleet_.Restart(target);
   }
 
   const StopwatchTask& task_;
@@ -258,7 +261,7 @@ class Conductor {
   const StallMonitor& monitor_;
   const std::vector<Wave> waves_;
   StopwatchFleet fleet_;
-  std::vector<VehicleId> victims_;  // of the current wave
+  std::vector<VehicleId> targets_;  // of the current wave
   StopwatchResult result_;
 };
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "services/fleetctl/args/reading_along.h"
+#include "services/fleetctl/args/observer_session.h"
 #include "services/fleetctl/survey/why_proc.h"
 
 namespace giveway::fleetctl {

@@ -44,7 +44,7 @@ std::vector<std::string> OtherFleets(const std::vector<FleetMember>& members, st
   return lines;
 }
 
-void SayOtherFleets(std::uint32_t domain, const std::string& interface) {
+void ReportOtherFleets(std::uint32_t domain, const std::string& interface) {
   std::error_code error;
   const auto link = std::filesystem::read_symlink("/proc/self/ns/net", error);
   const auto own = error ? std::nullopt : ParseBracketed(link.string(), "net");

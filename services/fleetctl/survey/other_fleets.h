@@ -15,6 +15,6 @@ std::vector<std::string> OtherFleets(const std::vector<FleetMember>& members, st
                                      const std::string& interface, std::uint64_t network_namespace);
 
 // Reports them on stderr, from the processes that are visible from here.
-void SayOtherFleets(std::uint32_t domain, const std::string& interface);
+void ReportOtherFleets(std::uint32_t domain, const std::string& interface);
 
 }  // namespace giveway::fleetctl

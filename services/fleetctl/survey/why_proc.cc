@@ -13,8 +13,8 @@
 
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/process/whole_number.h"
+#include "services/fleetctl/survey/launch_options.h"
 #include "services/fleetctl/survey/why_proc_text.h"
-#include "services/fleetctl/survey/why_told.h"
 #include "services/qos/xml_tree.h"
 #include "services/runtime/identity.h"
 
@@ -45,10 +45,10 @@ class Reading {
       : proc_(proc), process_(proc / std::to_string(pid)), started_(started) {
     to_.pid = pid;
     to_.environment = started.environment;
-    to_.told = ReadTold(started, &to_.not_known);
+    to_.launch = ReadLaunchOptions(started, &to_.not_known);
     if (auto identity = ReadIdentity(process_)) {
       to_.participant = std::move(identity->participant);
-      if (identity->vehicle != kNobody) to_.told.id = identity->vehicle;
+      if (identity->vehicle != kNoVehicle) to_.launch.id = identity->vehicle;
     }
     if (!ReadText(process_ / "environ")) NotKnown("environment");
   }
@@ -178,44 +178,45 @@ fs::path Reading::ConfigFolder() const {
 }
 
 void Reading::ReadScenario() {
-  if (to_.told.scenario.empty()) return;
+  if (to_.launch.scenario.empty()) return;
   std::error_code error;
-  fs::path file = Seen(to_.told.scenario);
+  fs::path file = Seen(to_.launch.scenario);
   if (!fs::exists(file, error)) {
-    file = Seen(ConfigFolder() / "scenarios" / (to_.told.scenario + ".textproto"));
+    file = Seen(ConfigFolder() / "scenarios" / (to_.launch.scenario + ".textproto"));
   }
   if (!fs::exists(file, error)) {
-    to_.not_known.push_back("scenario " + to_.told.scenario + ": cannot be read");
+    to_.not_known.push_back("scenario " + to_.launch.scenario + ": cannot be read");
     return;
   }
   const bool given = started_.Value("--impair").has_value();
-  AddScenario(file, given, &to_.told, &to_.not_known);
+  AddScenario(file, given, &to_.launch, &to_.not_known);
 }
 
 void Reading::ReadProfiles() {
-  if (to_.told.qos_file.empty() && ConfigFolder().empty()) {
-    to_.told.qos_file = ResolveQosFile("");
+  if (to_.launch.qos_file.empty() && ConfigFolder().empty()) {
+    to_.launch.qos_file = ResolveQosFile("");
     to_.not_known.push_back("profiles: their folder cannot be read; taken to be the default");
     return;
   }
-  fs::path path =
-      to_.told.qos_file.empty() ? ConfigFolder() / "qos/default.xml" : fs::path(to_.told.qos_file);
+  fs::path path = to_.launch.qos_file.empty() ? ConfigFolder() / "qos/default.xml"
+                                              : fs::path(to_.launch.qos_file);
   const fs::path seen = Seen(path);
   const bool held = IsHeld(path);
   if (held) path = seen;
   if (path.is_relative()) path = fs::path(ReadLink(process_ / "cwd").value_or("")) / path;
-  to_.told.qos_file = path.lexically_normal().string();
+  to_.launch.qos_file = path.lexically_normal().string();
   const auto read = ReadQosFile(seen.string());
   if (const auto* why = std::get_if<qos::Finding>(&read)) {
-    to_.not_known.push_back("profiles " + to_.told.qos_file + ": " + why->values);
+    to_.not_known.push_back("profiles " + to_.launch.qos_file + ": " + why->values);
     return;
   }
-  const qos::XmlRead xml = qos::ReadXml(std::get<qos::ProfileFile>(read).bytes, to_.told.qos_file);
+  const qos::XmlRead xml =
+      qos::ReadXml(std::get<qos::ProfileFile>(read).bytes, to_.launch.qos_file);
   if (!xml.root) {
-    to_.not_known.push_back("profiles " + to_.told.qos_file + ": no XML");
+    to_.not_known.push_back("profiles " + to_.launch.qos_file + ": no XML");
     return;
   }
-  to_.profiles = qos::ReadProfiles(*xml.root, to_.told.qos_file);
+  to_.profiles = qos::ReadProfiles(*xml.root, to_.launch.qos_file);
   struct stat written {};
   if (start_s_ && !held && ::stat(seen.c_str(), &written) == 0) {
     // A second of tolerance: both are whole seconds.
@@ -248,12 +249,12 @@ std::vector<FleetMember> FindFleet(const fs::path& proc) {
     if (!started) continue;
     std::vector<std::string> ignored;
     const fs::path process = proc / std::to_string(pid);
-    const Instructions told = ReadTold(*started, &ignored);
+    const LaunchOptions launch = ReadLaunchOptions(*started, &ignored);
     const auto identity = ReadIdentity(process);
-    const bool given = identity && identity->vehicle != kNobody;
+    const bool given = identity && identity->vehicle != kNoVehicle;
     const auto network = ReadLink(process / "ns/net");
-    members.push_back({pid, told.is_world, given ? identity->vehicle : told.id, told.domain,
-                       told.interface, network ? ParseBracketed(*network, "net") : std::nullopt});
+    members.push_back({pid, launch.is_world, given ? identity->vehicle : launch.id, launch.domain,
+                       launch.interface, network ? ParseBracketed(*network, "net") : std::nullopt});
   }
   return members;
 }

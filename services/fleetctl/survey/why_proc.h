@@ -15,7 +15,7 @@ namespace giveway::fleetctl {
 struct FleetMember {
   int pid = 0;
   bool is_world = false;
-  VehicleId id = kNobody;  // assigned by the world, or requested, or observed
+  VehicleId id = kNoVehicle;  // assigned by the world, or requested, or observed
   std::uint32_t domain = 0;
   std::string interface;
   std::optional<std::uint64_t> network_namespace;

@@ -17,9 +17,9 @@ bool IsLoopback(std::uint32_t address) { return address >> 24U == kLoopback; }
 }  // namespace
 
 std::string NameOf(const ProcessSituation& process) {
-  if (process.told.is_world) return fmt::format("the world (pid {})", process.pid);
-  if (process.told.id == kNobody) return fmt::format("pid {}", process.pid);
-  return fmt::format("vehicle {} (pid {})", Number(process.told.id), process.pid);
+  if (process.launch.is_world) return fmt::format("the world (pid {})", process.pid);
+  if (process.launch.id == kNoVehicle) return fmt::format("pid {}", process.pid);
+  return fmt::format("vehicle {} (pid {})", Number(process.launch.id), process.pid);
 }
 
 std::string AddressText(std::uint32_t address) {
@@ -29,7 +29,7 @@ std::string AddressText(std::uint32_t address) {
 
 std::vector<NetworkAddress> AllowedAddresses(const ProcessSituation& process) {
   std::vector<NetworkAddress> allowed;
-  const std::string& wanted = process.told.interface;
+  const std::string& wanted = process.launch.interface;
   for (const NetworkAddress& one : process.addresses.value_or(std::vector<NetworkAddress>{})) {
     if (wanted == "any" || wanted == one.interface || wanted == AddressText(one.address)) {
       allowed.push_back(one);
@@ -83,7 +83,7 @@ std::vector<std::uint32_t> ParticipantIds(const ProcessSituation& process) {
   };
   const std::int64_t gain = number(qos::Policy::kDomainGain, 250);
   const std::int64_t each = std::max<std::int64_t>(number(qos::Policy::kParticipantGain, 2), 1);
-  const std::int64_t first = number(qos::Policy::kPortBase, 7400) + gain * process.told.domain +
+  const std::int64_t first = number(qos::Policy::kPortBase, 7400) + gain * process.launch.domain +
                              number(qos::Policy::kOffset1, 10);
   std::set<std::uint32_t> ids;
   for (const std::uint16_t port : process.ports.value_or(std::vector<std::uint16_t>{})) {

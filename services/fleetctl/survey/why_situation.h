@@ -30,9 +30,9 @@ struct FileIdentity {
 };
 
 // Its command line, its environment and the scenario they name.
-struct Instructions {
+struct LaunchOptions {
   bool is_world = false;
-  VehicleId id = kNobody;  // of a vehicle that requested one
+  VehicleId id = kNoVehicle;  // of a vehicle that requested one
   std::uint32_t domain = 0;
   std::string interface = "127.0.0.1";
   std::string qos_file;  // as the process sees it; absolute
@@ -53,7 +53,7 @@ struct ProcessSituation {
   int pid = 0;
   std::string participant;  // the first twelve bytes of its GUIDs, hexadecimal; empty: not known
   int pid_inside = 0;       // in its own namespace of process ids, as in its GUID; 0: not known
-  Instructions told;
+  LaunchOptions launch;
   std::optional<qos::ProfileSet> profiles;  // the set as the file is now
   bool profiles_changed = false;            // the file was written to after the process started
 

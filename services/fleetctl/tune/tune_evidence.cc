@@ -106,13 +106,13 @@ AlarmCounts& AlarmCounts::operator+=(const AlarmCounts& more) {
 
 std::optional<TuneFigures> FiguresOf(const std::vector<TrialEvidence>& trials, double dispersion) {
   TuneFigures figures;
-  std::uint32_t told = 0;
+  std::uint32_t reported = 0;
   for (const TrialEvidence& trial : trials) {
     if (!IsSound(trial)) continue;
     ++figures.trials;
     figures.vehicle_hours += VehicleHours(trial);
     figures.alarms += trial.alarms;
-    told += trial.told_deadline + trial.told_liveliness;
+    reported += trial.reported_deadline + trial.reported_liveliness;
     figures.undetected += trial.undetected;
     figures.age_p99_ms = std::max(figures.age_p99_ms, trial.age_p99_ms);
     figures.longest_pause_ms = std::max(figures.longest_pause_ms, trial.longest_pause_ms);
@@ -124,7 +124,7 @@ std::optional<TuneFigures> FiguresOf(const std::vector<TrialEvidence>& trials, d
   figures.alarms_per_hour = Rate(figures.alarms.Total(), figures.vehicle_hours);
   figures.alarms_low = Rate(interval.low, figures.vehicle_hours);
   figures.alarms_high = Rate(interval.high, figures.vehicle_hours);
-  figures.told_per_hour = Rate(told, figures.vehicle_hours);
+  figures.reported_per_hour = Rate(reported, figures.vehicle_hours);
   FoldDetections(trials, &figures);
   FoldShares(trials, &figures);
   return figures;

@@ -40,10 +40,11 @@ struct TrialEvidence {
   std::uint32_t seed = 0;
   std::string trouble;  // why there are no figures; empty if there are
   std::uint32_t vehicles = 0;
-  double alive_s = 0;               // how long all were observed while all were alive
-  AlarmCounts alarms;               // in that time: all of them false
-  std::uint32_t told_deadline = 0;  // events counted by the vehicles in that time (fleet/status)
-  std::uint32_t told_liveliness = 0;
+  double alive_s = 0;  // how long all were observed while all were alive
+  AlarmCounts alarms;  // in that time: all of them false
+  std::uint32_t reported_deadline =
+      0;  // events counted by the vehicles in that time (fleet/status)
+  std::uint32_t reported_liveliness = 0;
   double age_mean_ms = 0;  // of the newest beacon of a peer at a decision, by ticks
   double age_p99_ms = 0;
   std::optional<double> heard_bytes_s;  // per vehicle, all packets of the others and the world
@@ -62,7 +63,7 @@ struct TuneFigures {
   double dispersion = 1;  // see Dispersion
   double alarms_low = 0;  // 99 % interval of the rate
   double alarms_high = 0;
-  double told_per_hour = 0;  // deadline and liveliness events
+  double reported_per_hour = 0;  // deadline and liveliness events
   std::uint32_t detections = 0;
   std::uint32_t undetected = 0;
   double detection_ms = 0;  // mean, from the target's last beacon

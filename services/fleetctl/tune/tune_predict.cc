@@ -23,7 +23,7 @@ const ImpairmentRule* LastFor(const Impairment& impairment, ImpairedSender sende
 }
 
 bool HasClosedForm(const ImpairmentRule& rule) {
-  return rule.to_vehicle == kNobody && rule.from != ImpairedSender::kOneVehicle &&
+  return rule.to_vehicle == kNoVehicle && rule.from != ImpairedSender::kOneVehicle &&
          rule.reorder == 0 && rule.corrupt == 0 && rule.rate_bytes_s == 0 &&
          rule.blackouts.empty() && !rule.from_s && !rule.to_s;
 }
@@ -101,9 +101,9 @@ class Model {
       for (int scans = 1; scans <= kMostLost; ++scans) {
         const double reached = SilenceProbability(own, scans);
         const double turn = scans == 1 ? 1.5 : scans + 1;
-        const double told = ChanceOfMore(age_limit_ - (turn + lost) * tick_, kHostJitterMs);
-        alarms += SilenceProbability(channel_, lost) * reached * unseen * told;
-        unseen *= 1 - told;
+        const double noticed = ChanceOfMore(age_limit_ - (turn + lost) * tick_, kHostJitterMs);
+        alarms += SilenceProbability(channel_, lost) * reached * unseen * noticed;
+        unseen *= 1 - noticed;
       }
     }
     return alarms;
@@ -126,7 +126,7 @@ class Model {
 
   // The last beacon arrived `delay` ms after it was sent.
   double DetectionAfter(double delay) const {
-    const double told = delay + Limit();
+    const double event_ms = delay + Limit();
     const double heard = std::ceil(delay / tick_) * tick_;
     // If the limit is a whole number of ticks, the cycle exactly on it may see it exceeded or not.
     const double ticks = age_limit_ / tick_;
@@ -135,7 +135,7 @@ class Model {
     const double early = whole ? heard + std::round(ticks) * tick_ : first;
     double sum = 0;
     for (const double jitter : {-2 * kHostJitterMs, 2 * kHostJitterMs}) {
-      const double by_event = std::ceil((told + jitter) / tick_) * tick_;
+      const double by_event = std::ceil((event_ms + jitter) / tick_) * tick_;
       sum += std::min(by_event, early) + std::min(by_event, first);
     }
     return sum / 4;

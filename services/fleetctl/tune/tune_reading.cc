@@ -21,7 +21,7 @@ class Reader {
 
   void See(SteadyTime now, const VehicleState& state) {
     const bool counts = now >= window_.from && now <= window_.to;
-    if (counts) NoteTold(state.counters.qos);
+    if (counts) NoteEvents(state.counters.qos);
     // To the end: a machine that pauses during a target's silence delays its detection.
     if (reading_.last_step > window_.from) {
       reading_.longest_pause = std::max(reading_.longest_pause, now - reading_.last_step);
@@ -31,11 +31,11 @@ class Reader {
   }
 
  private:
-  void NoteTold(const QosCounters& qos) {
-    if (!told_any_) told_before_ = qos;
-    told_any_ = true;
-    reading_.told_deadline = qos.deadline_missed - told_before_.deadline_missed;
-    reading_.told_liveliness = qos.liveliness_lost - told_before_.liveliness_lost;
+  void NoteEvents(const QosCounters& qos) {
+    if (!any_events_) events_before_ = qos;
+    any_events_ = true;
+    reading_.reported_deadline = qos.deadline_missed - events_before_.deadline_missed;
+    reading_.reported_liveliness = qos.liveliness_lost - events_before_.liveliness_lost;
   }
 
   void SeePeer(const Peer& peer, SteadyTime now, Tick tick, bool counts) {
@@ -62,8 +62,8 @@ class Reader {
   const VehicleOptions& options_;
   const AliveWindow window_;
   VehicleReading& reading_;
-  bool told_any_ = false;
-  QosCounters told_before_;  // at the window's first step
+  bool any_events_ = false;
+  QosCounters events_before_;  // at the window's first step
 };
 
 void FoldAges(const std::vector<VehicleReading>& readings, Nanoseconds tick,
@@ -89,17 +89,17 @@ void FoldAges(const std::vector<VehicleReading>& readings, Nanoseconds tick,
 
 void FoldKilling(const std::vector<VehicleReading>& readings, const Killing& killing,
                  const std::vector<VehicleId>& dead, TrialEvidence* evidence) {
-  const auto victim = std::ranges::find(readings, killing.victim, &VehicleReading::vehicle);
-  if (victim == readings.end()) return;
+  const auto target = std::ranges::find(readings, killing.target, &VehicleReading::vehicle);
+  if (target == readings.end()) return;
   for (const VehicleReading& reading : readings) {
     if (std::ranges::find(dead, reading.vehicle) != dead.end()) continue;
-    const auto peer = reading.peers.find(killing.victim);
+    const auto peer = reading.peers.find(killing.target);
     if (peer == reading.peers.end()) continue;
     if (!peer->second) {
       ++evidence->undetected;
     } else if (peer->second->at > killing.at) {
       evidence->detections.push_back({Milliseconds(peer->second->at - killing.at),
-                                      Milliseconds(peer->second->at - victim->last_step),
+                                      Milliseconds(peer->second->at - target->last_step),
                                       peer->second->cause});
     }
   }
@@ -140,15 +140,15 @@ void FoldReadings(const std::vector<VehicleReading>& readings, const std::vector
       evidence->trouble = "a recording cannot be read: " + reading.trouble;
     }
     evidence->alarms += reading.alarms;
-    evidence->told_deadline += reading.told_deadline;
-    evidence->told_liveliness += reading.told_liveliness;
+    evidence->reported_deadline += reading.reported_deadline;
+    evidence->reported_liveliness += reading.reported_liveliness;
     evidence->longest_pause_ms =
         std::max(evidence->longest_pause_ms, Milliseconds(reading.longest_pause));
   }
   FoldAges(readings, tick, evidence);
   std::vector<VehicleId> dead;
   for (const Killing& killing : killings) {
-    dead.push_back(killing.victim);
+    dead.push_back(killing.target);
     FoldKilling(readings, killing, dead, evidence);
   }
 }

@@ -30,11 +30,11 @@ struct Silenced {
 
 struct VehicleReading {
   std::string trouble;  // why it could not be read; empty if it could
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   SteadyTime last_step{0};  // the last beacon it sent
   AlarmCounts alarms;       // within the window
-  std::uint32_t told_deadline = 0;
-  std::uint32_t told_liveliness = 0;
+  std::uint32_t reported_deadline = 0;
+  std::uint32_t reported_liveliness = 0;
   std::vector<std::uint64_t> ages;  // beacons at a decision, by age in ticks; in the window
   Nanoseconds longest_pause{0};     // between two steps, from the window on
   std::map<VehicleId, std::optional<Silenced>> peers;  // nullopt: trusted to the end
@@ -43,7 +43,7 @@ struct VehicleReading {
 VehicleReading ReadVehicle(std::istream* recording, const AliveWindow& window);
 
 struct Killing {
-  VehicleId victim = kNobody;
+  VehicleId target = kNoVehicle;
   SteadyTime at{0};
 };
 

@@ -56,7 +56,7 @@ Json FiguresJson(const TuneFigures& f) {
   json["alarms_dispersion"] = f.dispersion;
   json["alarms_low"] = f.alarms_low;
   json["alarms_high"] = f.alarms_high;
-  json["told_per_vehicle_hour"] = f.told_per_hour;
+  json["told_per_vehicle_hour"] = f.reported_per_hour;
   json["detections"] = f.detections;
   json["undetected"] = f.undetected;
   json["detection_ms"] = f.detection_ms;

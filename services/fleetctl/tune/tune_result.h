@@ -45,6 +45,6 @@ struct TuneResult {
 };
 
 // Fills in front and recommended from the figures.
-void Judge(TuneResult* result);
+void SetVerdict(TuneResult* result);
 
 }  // namespace giveway::fleetctl

@@ -23,7 +23,7 @@
 #include "services/fleetctl/tune/tune_report.h"
 #include "services/fleetctl/tune/tune_search.h"
 #include "services/link/convert/crc32c.h"
-#include "services/qos/check.h"
+#include "services/qos/profile_check.h"
 #include "services/runtime/json.h"
 
 namespace giveway::fleetctl {
@@ -239,7 +239,7 @@ TuneResult Tuning::Run() {
   const std::size_t before = search.All().size();
   if (before > 0) std::fprintf(stderr, "resuming: %zu trials are already done\n", before);
   Climb(rungs, &search);
-  Judge(&result_);
+  SetVerdict(&result_);
   Verify(&search);
   result_.trials = search.All();
   std::error_code ignored;
@@ -280,8 +280,8 @@ int RunQosTune(const QosTuneOptions& options) {
     const TuneResult result = tuning.Run();
     const TuneStore& store = tuning.Store();
     const std::string& chosen = result.candidates[result.recommended].candidate.name;
-    const bool told = Print(options.json ? ToJson(result) + "\n" : ToText(result));
-    return WriteAfterVerdict(told && result.IsBetter() ? 0 : 1, [&] {
+    const bool written = Print(options.json ? ToJson(result) + "\n" : ToText(result));
+    return WriteAfterVerdict(written && result.IsBetter() ? 0 : 1, [&] {
       store.Write("recommended.xml", Headed(tuning.ProfileOf(chosen), result));
       store.Write("evidence.json", ToJson(result) + "\n");
       store.Write("report.html", ToHtml(result, Draw(PlotsOf(result), store)));

@@ -14,7 +14,7 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr Nanoseconds kTurn = std::chrono::milliseconds(5);  // the accuracy of kill times
-constexpr Nanoseconds kWordEvery = std::chrono::seconds(5);
+constexpr Nanoseconds kProgressEvery = std::chrono::seconds(5);
 constexpr int kMostRepeats = 2;  // of one trial, before its result is accepted
 // Start, settling, kills and the end of a trial; only for the remaining time.
 constexpr double kAroundTrialSeconds = 5;
@@ -60,7 +60,7 @@ void TuneSearch::Measure(const std::vector<TuneCandidate>& candidates, bool veri
     const SteadyTime now = SteadyNow();
     for (const auto& trial : running_) trial->Turn(now);
     TakeFinished();
-    TellProgress(now);
+    ReportProgress(now);
     SleepUntil(now + kTurn);
   }
 }
@@ -107,9 +107,9 @@ bool TuneSearch::MayRepeat(const Key& key, const TrialEvidence& evidence) {
   return true;
 }
 
-void TuneSearch::TellProgress(SteadyTime now) {
-  if (now < next_word_) return;
-  next_word_ = now + kWordEvery;
+void TuneSearch::ReportProgress(SteadyTime now) {
+  if (now < next_progress_) return;
+  next_progress_ = now + kProgressEvery;
   const std::size_t done = evidence_.size();
   const std::size_t left = std::max(planned_, done + waiting_.size() + running_.size()) - done;
   // By the duration of the trials so far; before the first is over, by the planned one.

@@ -46,7 +46,7 @@ class TuneSearch {
   void TakeFinished();
   // The reason if the trial must be repeated.
   bool MayRepeat(const Key& key, const TrialEvidence& evidence);
-  void TellProgress(SteadyTime now);
+  void ReportProgress(SteadyTime now);
 
   const TuneGround& ground_;
   const TuneStore& store_;
@@ -60,7 +60,7 @@ class TuneSearch {
   std::size_t repeats_left_;
   std::size_t measured_ = 0;
   SteadyTime begun_{0};
-  SteadyTime next_word_{0};
+  SteadyTime next_progress_{0};
 };
 
 }  // namespace giveway::fleetctl

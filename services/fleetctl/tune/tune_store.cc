@@ -56,8 +56,8 @@ TrialEvidence FromJson(const Json& json) {
   evidence.vehicles = Uint32Of(json.at("vehicles"));
   evidence.alive_s = json.at("alive_s").get<double>();
   evidence.alarms = CountsFrom(json.at("alarms"));
-  evidence.told_deadline = Uint32Of(json.at("told_deadline"));
-  evidence.told_liveliness = Uint32Of(json.at("told_liveliness"));
+  evidence.reported_deadline = Uint32Of(json.at("told_deadline"));
+  evidence.reported_liveliness = Uint32Of(json.at("told_liveliness"));
   evidence.age_mean_ms = json.at("age_mean_ms").get<double>();
   evidence.age_p99_ms = json.at("age_p99_ms").get<double>();
   if (json.contains("heard_bytes_s")) evidence.heard_bytes_s = json["heard_bytes_s"].get<double>();
@@ -98,8 +98,8 @@ Json EvidenceJson(const TrialEvidence& evidence) {
   json["vehicles"] = evidence.vehicles;
   json["alive_s"] = evidence.alive_s;
   json["alarms"] = CountsJson(evidence.alarms);
-  json["told_deadline"] = evidence.told_deadline;
-  json["told_liveliness"] = evidence.told_liveliness;
+  json["told_deadline"] = evidence.reported_deadline;
+  json["told_liveliness"] = evidence.reported_liveliness;
   json["age_mean_ms"] = evidence.age_mean_ms;
   json["age_p99_ms"] = evidence.age_p99_ms;
   json["heard_bytes_s"] = OrNull(evidence.heard_bytes_s);

@@ -136,9 +136,9 @@ void TuneTrial::PlanKillings() {
 // process two would follow each other at once.
 void TuneTrial::KillIfDue(SteadyTime now) {
   if (killed_.size() == planned_.size() || now < until_) return;
-  const VehicleId victim = planned_[killed_.size()].victim;
-  killed_.push_back({victim, SteadyNow()});
-  processes_->Kill(MemberOf(victim));
+  const VehicleId target = planned_[killed_.size()].target;
+  killed_.push_back({target, SteadyNow()});
+  processes_->Kill(MemberOf(target));
   const bool last = killed_.size() == planned_.size();
   until_ = killed_.back().at + (last ? kBetweenKillings : planned_[killed_.size()].after);
 }

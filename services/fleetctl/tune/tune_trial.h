@@ -84,7 +84,7 @@ class TuneTrial {
   double cpu_before_s_ = 0;
   double cpu_used_s_ = 0;
   struct PlannedKilling {
-    VehicleId victim = kNobody;
+    VehicleId target = kNoVehicle;
     Nanoseconds after{0};  // the last one
   };
   std::vector<PlannedKilling> planned_;

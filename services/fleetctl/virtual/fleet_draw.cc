@@ -27,7 +27,7 @@ double UniformRatio(double low, double high, Random* dice) {
   return low * std::exp(dice->Uniform(0, std::log(high / low)));
 }
 
-void DrawBody(double most_radius_m, Random* dice, VehicleProfile* profile) {
+void DrawBody(double most_radius_m, Random* dice, RobotModel* profile) {
   profile->body_radius_m = dice->Uniform(std::min(kSmallest_m, most_radius_m), most_radius_m);
   const bool box = dice->Next() % 2 == 0;
   const double longer = dice->Uniform(1, kLongest);
@@ -71,7 +71,7 @@ VehicleOptions FleetDraw::Draw(const VehicleOptions& plain) {
   return drawn;
 }
 
-void FleetDraw::DrawPoseKeeping(VehicleProfile* profile) {
+void FleetDraw::DrawPoseKeeping(RobotModel* profile) {
   if (choice_.pose_fix.Fitted()) profile->pose_fix = choice_.pose_fix;
   if (choice_.most_wheel_error > 0) {
     const auto error = [&] {

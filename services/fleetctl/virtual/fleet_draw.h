@@ -39,7 +39,7 @@ class FleetDraw {
 
  private:
   bool ComesOut(const VehicleOptions& options) const;
-  void DrawPoseKeeping(VehicleProfile* profile);
+  void DrawPoseKeeping(RobotModel* profile);
   VehicleOptions Draw(const VehicleOptions& plain);
 
   FleetChoice choice_;

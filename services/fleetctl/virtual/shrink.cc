@@ -20,9 +20,9 @@ std::string_view Word(sim::ProcessFaultKind kind) {
   return kind == sim::ProcessFaultKind::kPause ? "pause" : "restart";
 }
 
-bool ShowProgress(const VirtualCase& smallest, std::uint32_t tries) {
+bool ShowProgress(const VirtualCase& smallest, std::uint32_t attempts) {
   if (::isatty(STDERR_FILENO) == 1) {
-    fmt::print(stderr, "\r{} tries, {} vehicles, {:.0f} s \x1b[K", tries,
+    fmt::print(stderr, "\r{} tries, {} vehicles, {:.0f} s \x1b[K", attempts,
                smallest.scenario.vehicles.size(), smallest.scenario.duration_s);
     std::fflush(stderr);
   }
@@ -42,12 +42,12 @@ std::string Comment(const CaseMaker& maker, const ShrinkOptions& options, const 
   return fmt::format(
       "Left of {} with seed {} after {} tries: breaks {} at tick {}.\nReplay:\n"
       "  fleetctl virtual {} --seed 0{}\n",
-      maker.Name(), options.seed, shrunk.tries, sim::Name(shrunk.violation.invariant),
+      maker.Name(), options.seed, shrunk.attempts, sim::Name(shrunk.violation.invariant),
       Number(shrunk.violation.tick), file, ReplayFlags(shrunk.made.plan, FaultFileOf(file)));
 }
 
 // An expectation names vehicles: a smaller run that also misses it would show nothing.
-int TellThatNothingBreaks(const CaseMaker& maker, std::uint32_t seed, const VirtualCase& made) {
+int ReportNothingBreaks(const CaseMaker& maker, std::uint32_t seed, const VirtualCase& made) {
   fmt::print("{} with seed {} breaks no invariant\n", maker.Name(), seed);
   if (!maker.HasExpectations()) return 0;
   const std::string unmet = sim::RunVirtually(made.scenario, made.plan).unmet;
@@ -98,7 +98,7 @@ int RunShrink(const ShrinkOptions& options) {
   const Interrupts interrupts(Silence::kComputes);
   std::optional<Shrunk> shrunk = Shrink(failing, ShowProgress);
   if (::isatty(STDERR_FILENO) == 1) std::fputs("\r\x1b[K", stderr);
-  if (!shrunk) return TellThatNothingBreaks(maker, options.seed, failing);
+  if (!shrunk) return ReportNothingBreaks(maker, options.seed, failing);
   Scenario& scenario = shrunk->made.scenario;
   scenario.name = fmt::format("{}_{}", maker.Name(), options.seed);
   WriteFile(file, WriteScenario(scenario, Comment(maker, options, *shrunk, file)));

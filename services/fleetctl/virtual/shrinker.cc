@@ -23,12 +23,12 @@ void RemoveVehicles(std::size_t first, std::size_t count, VirtualCase* made) {
   };
   std::erase_if(made->plan.faults, [&](const auto& fault) { return is_gone(fault.vehicle); });
   std::erase_if(made->plan.radio.blackouts, [&](const auto& blackout) {
-    return blackout.vehicle != kNobody && is_gone(blackout.vehicle);
+    return blackout.vehicle != kNoVehicle && is_gone(blackout.vehicle);
   });
   std::erase_if(made->plan.schedule, [&](const faults::Fault& fault) {
-    const auto from = fault.parameters.from.value_or(kNobody);
-    return (fault.target.vehicle != kNobody && is_gone(fault.target.vehicle)) ||
-           (from != kNobody && is_gone(from));
+    const auto from = fault.parameters.from.value_or(kNoVehicle);
+    return (fault.target.vehicle != kNoVehicle && is_gone(fault.target.vehicle)) ||
+           (from != kNoVehicle && is_gone(from));
   });
   std::erase_if(made->scenario.faults, [&](const auto& fault) {
     return fault.kind == FaultKind::kKill && is_gone(fault.vehicle);

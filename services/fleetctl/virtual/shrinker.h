@@ -14,11 +14,11 @@ namespace giveway::fleetctl {
 struct Shrunk {
   VirtualCase made;
   sim::Violation violation;  // the first of its invariant in the remaining run
-  std::uint32_t tries = 0;
+  std::uint32_t attempts = 0;
 };
 
 // Called before every try. False: stop, and take the result so far.
-using ShrinkProgress = std::function<bool(const VirtualCase& smallest, std::uint32_t tries)>;
+using ShrinkProgress = std::function<bool(const VirtualCase& smallest, std::uint32_t attempts)>;
 
 // nullopt if no invariant breaks in the run.
 std::optional<Shrunk> Shrink(const VirtualCase& failing, const ShrinkProgress& progress);

@@ -26,9 +26,9 @@ std::vector<SeedViolation> FirstOf(std::uint32_t seed, const sim::VirtualOutcome
   for (const auto* violations : {&outcome.first, &outcome.noted}) {
     for (const sim::Violation& violation : *violations) {
       const std::string name(sim::Name(violation.invariant));
-      const bool told = std::ranges::any_of(
+      const bool reported = std::ranges::any_of(
           first, [&](const SeedViolation& other) { return other.what.invariant == name; });
-      if (told) continue;
+      if (reported) continue;
       first.push_back({seed,
                        Number(violation.tick) * outcome.tick_s,
                        {name, violation.tick, violation.vehicle, violation.other},

@@ -61,9 +61,9 @@ void AddFaults(sim::ProcessFaultKind kind, const WholeRange& range, const Scenar
   // A fixed number draws nothing: seeds mean what they meant before there were ranges.
   const std::uint32_t count = range.low == range.high ? range.low : Draw(range, dice);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const std::size_t victim = dice->Next() % scenario.vehicles.size();
+    const std::size_t chosen = dice->Next() % scenario.vehicles.size();
     faults->push_back({.kind = kind,
-                       .vehicle = scenario.vehicles[victim].id,
+                       .vehicle = scenario.vehicles[chosen].id,
                        .at_s = dice->Uniform(kFaultTime_s.low, kFaultTime_s.high),
                        .for_s = dice->Uniform(kAbsence_s.low, kAbsence_s.high)});
   }

@@ -47,7 +47,7 @@ void VirtualRecording::Write(const char* topic, std::string bytes) {
 }
 
 void VirtualRecording::NoteVehicle(const sim::VirtualFleet& fleet, std::size_t index) {
-  const Outputs& said = fleet.Said(index);
+  const Outputs& said = fleet.OutputsOf(index);
   Write("fleet/beacon", link::Encode(said.beacon));
   Write("fleet/motor_command", link::Encode(said.command));
   if (Number(fleet.World().Now()) % kTicksAStatus != 0) return;

@@ -22,7 +22,7 @@ void Trace(const sim::VirtualFleet& fleet, std::string* text) {
                 .world_from_body = truth.world_from_body,
                 .forward_m_s = truth.forward_m_s,
                 .arrived = truth.arrived},
-               fleet.Said(index++), text);
+               fleet.OutputsOf(index++), text);
   }
 }
 

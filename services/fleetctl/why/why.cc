@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "services/fleetctl/args/reading_along.h"
+#include "services/fleetctl/args/observer_session.h"
 #include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/domain_lock.h"
 #include "services/fleetctl/process/exit_codes.h"
@@ -33,9 +33,10 @@ std::string Listed(const std::vector<FleetMember>& members,
   std::string text;
   for (const FleetMember& member : members) {
     if (domain && member.domain != *domain) continue;
-    const std::string who = member.is_world        ? "the world"
-                            : member.id == kNobody ? "a vehicle without a given id"
-                                                   : fmt::format("vehicle {}", Number(member.id));
+    const std::string who = member.is_world ? "the world"
+                            : member.id == kNoVehicle
+                                ? "a vehicle without a given id"
+                                : fmt::format("vehicle {}", Number(member.id));
     text += fmt::format("\n  pid:{}  {} in domain {}, interface {}", member.pid, who, member.domain,
                         member.interface);
     if (member.network_namespace) {
@@ -53,10 +54,10 @@ ProcessSituation StandIn(const Named& named, const ProcessSituation& other) {
   situation.pid = other.pid;
   situation.network_namespace = other.network_namespace;
   situation.mount_namespace = other.mount_namespace;
-  situation.told = other.told;
-  situation.told.is_world = named.world;
-  situation.told.id = named.id;
-  situation.told.impairment = {};
+  situation.launch = other.launch;
+  situation.launch.is_world = named.world;
+  situation.launch.id = named.id;
+  situation.launch.impairment = {};
   return situation;
 }
 
@@ -71,12 +72,12 @@ bool MayBeNameless(const Named& named, const std::vector<FleetMember>& members,
     return Fits(named, member) && (named.pid != 0 || IsIn(domain, member));
   });
   if (named.pid == 0) return !named.world && found == members.end();
-  return found != members.end() && !found->is_world && found->id == kNobody;
+  return found != members.end() && !found->is_world && found->id == kNoVehicle;
 }
 
 // Names the vehicles that publish no id, if the probe hears them in the place of the first of them.
 // Two that discovery cannot distinguish, with the same process id in two containers, stay unnamed.
-void NameByEar(const std::vector<FleetMember*>& nameless) {
+void NameByProbe(const std::vector<FleetMember*>& nameless) {
   std::map<std::uint16_t, std::vector<FleetMember*>> by_process;
   std::optional<ProcessSituation> place;
   for (FleetMember* const member : nameless) {
@@ -100,17 +101,17 @@ void NameByEar(const std::vector<FleetMember*>& nameless) {
 void NameNameless(std::uint32_t domain, std::vector<FleetMember>* members) {
   std::map<std::pair<std::uint64_t, std::string>, std::vector<FleetMember*>> nameless;
   for (FleetMember& member : *members) {
-    if (member.is_world || member.id != kNobody || member.domain != domain) continue;
+    if (member.is_world || member.id != kNoVehicle || member.domain != domain) continue;
     nameless[{member.network_namespace.value_or(0), member.interface}].push_back(&member);
   }
-  for (const auto& [network, fleet] : nameless) NameByEar(fleet);
+  for (const auto& [network, fleet] : nameless) NameByProbe(fleet);
 }
 
 std::optional<ProcessSituation> Read(int pid, const std::vector<FleetMember>& members) {
   if (pid == 0) return std::nullopt;
   auto situation = ReadSituation(kProc, pid);
   const auto member = std::ranges::find(members, pid, &FleetMember::pid);
-  if (situation && member != members.end()) situation->told.id = member->id;
+  if (situation && member != members.end()) situation->launch.id = member->id;
   return situation;
 }
 
@@ -149,9 +150,9 @@ int Report(const WhyOptions& options, const std::vector<FleetMember>& members,
   report.hearer = hearer ? NameOf(*hearer) : TextOf(options.hearer);
   report.speaker = speaker ? NameOf(*speaker) : TextOf(options.speaker);
   report.hearer_here = hearer.has_value();
-  report.foretold = hearer && speaker;
-  report.topics = report.foretold ? Predict(from, to, VehiclesIn(members, from.told.domain))
-                                  : TopicsBetween(from.told, to.told);
+  report.predicted = hearer && speaker;
+  report.topics = report.predicted ? Predict(from, to, VehiclesIn(members, from.launch.domain))
+                                   : TopicsBetween(from.launch, to.launch);
   if (report.topics.empty()) {
     std::fprintf(stderr, "two worlds do not talk to each other\n");
     return kCouldNotRun;
@@ -166,8 +167,9 @@ int Report(const WhyOptions& options, const std::vector<FleetMember>& members,
   const ProbeResult heard = report.probe.value_or(ProbeResult{});
   AddNotKnown(hearer, options.hearer, heard.hearer_foreign, &report);
   AddNotKnown(speaker, options.speaker, heard.speaker_foreign, &report);
-  const OutputResult result = Tell(options.json ? ToJson(report) : ForTerminal(ToText(report)));
-  return result == OutputResult::kFailed ? ExitCodeOf(result) : ExitCode(report);
+  const WriteResult result =
+      WriteStdout(options.json ? ToJson(report) : ForTerminal(ToText(report)));
+  return result == WriteResult::kFailed ? ExitCodeOf(result) : ExitCode(report);
 }
 
 }  // namespace

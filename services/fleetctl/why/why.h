@@ -15,7 +15,7 @@ namespace giveway::fleetctl {
 // What an argument names: a vehicle, the world, or a process.
 struct Named {
   bool world = false;
-  VehicleId id = kNobody;
+  VehicleId id = kNoVehicle;
   int pid = 0;
 
   friend bool operator==(const Named&, const Named&) = default;

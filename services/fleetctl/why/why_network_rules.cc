@@ -38,7 +38,7 @@ std::int64_t NumberOr(std::int64_t otherwise, const ProcessSituation& process, q
 // The target of the first announcement: a multicast port that depends on the domain.
 std::int64_t DiscoveryPort(const ProcessSituation& process) {
   return NumberOr(7400, process, qos::Policy::kPortBase) +
-         NumberOr(250, process, qos::Policy::kDomainGain) * process.told.domain +
+         NumberOr(250, process, qos::Policy::kDomainGain) * process.launch.domain +
          NumberOr(0, process, qos::Policy::kOffset0);
 }
 
@@ -64,8 +64,8 @@ std::string Where(const ProcessSituation& process) {
 bool MeetInside(const ProcessSituation& a, const ProcessSituation& b) {
   const auto allowed_a = AllowedAddresses(a);
   const auto allowed_b = AllowedAddresses(b);
-  const bool any_a = a.told.interface == "any";
-  const bool any_b = b.told.interface == "any";
+  const bool any_a = a.launch.interface == "any";
+  const bool any_b = b.launch.interface == "any";
   if (any_a != any_b && !std::ranges::all_of(*a.addresses, IsLoopback)) return false;
   return std::ranges::any_of(allowed_a, [&](const NetworkAddress& one) {
     return std::ranges::find(allowed_b, one) != allowed_b.end();
@@ -118,11 +118,11 @@ bool AsksInVain(const ProcessSituation& from, const ProcessSituation& to) {
 }  // namespace
 
 void CheckDomains(const ProcessSituation& hearer, const ProcessSituation& speaker, Causes* causes) {
-  if (hearer.told.domain == 0 || speaker.told.domain == 0) return;
-  if (hearer.told.domain != speaker.told.domain) {
+  if (hearer.launch.domain == 0 || speaker.launch.domain == 0) return;
+  if (hearer.launch.domain != speaker.launch.domain) {
     Add(Weight::kPrevents, "domain_apart",
-        Both(hearer, fmt::format("is in domain {}", hearer.told.domain), speaker,
-             fmt::format("in domain {}", speaker.told.domain)),
+        Both(hearer, fmt::format("is in domain {}", hearer.launch.domain), speaker,
+             fmt::format("in domain {}", speaker.launch.domain)),
         "Domains use other ports, and participants of one never hear of the other's.",
         "start both with the same --domain", causes);
     return;
@@ -147,10 +147,10 @@ void CheckNetworks(const ProcessSituation& hearer, const ProcessSituation& speak
     if (MeetInside(hearer, speaker)) return;
     Add(Weight::kPrevents, "whitelist_apart",
         Both(hearer,
-             fmt::format("allows --interface {} ({})", hearer.told.interface,
+             fmt::format("allows --interface {} ({})", hearer.launch.interface,
                          Listed(AllowedAddresses(hearer))),
              speaker,
-             fmt::format("--interface {} ({})", speaker.told.interface,
+             fmt::format("--interface {} ({})", speaker.launch.interface,
                          Listed(AllowedAddresses(speaker)))),
         "Each announces itself where the other does not listen.",
         "start both with the same --interface", causes);

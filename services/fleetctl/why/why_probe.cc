@@ -15,9 +15,9 @@
 #include <stdexcept>
 
 #include "services/fleetctl/args/qos_files.h"
-#include "services/fleetctl/process/child_answer.h"
 #include "services/fleetctl/process/file_descriptor.h"
-#include "services/link/ear.h"
+#include "services/fleetctl/process/run_in_child.h"
+#include "services/link/discovery_probe.h"
 #include "services/link/observer_link.h"
 #include "services/runtime/process.h"
 
@@ -26,7 +26,7 @@ namespace {
 
 constexpr Nanoseconds kTurn = std::chrono::milliseconds(5);
 // A vehicle publishes its status five times a second, and may lag a little behind the probe.
-constexpr double kOwnWordSeconds = 2.5;
+constexpr double kReceiverReportSeconds = 2.5;
 constexpr double kRunTimeMs = 2000;
 constexpr Nanoseconds kNamesTime = std::chrono::seconds(2);
 
@@ -67,18 +67,18 @@ void TakePlace(const ProcessSituation& hearer) {
   mounts.Enter();
 }
 
-link::LinkOptions OptionsOf(const Instructions& told) {
+link::LinkOptions OptionsOf(const LaunchOptions& launch) {
   link::LinkOptions options;
-  options.domain = told.domain;
-  options.interface = told.interface;
-  options.qos = ReadSoundQos(told.qos_file);
-  options.area = told.area;
-  options.fleet_size = told.fleet_size;
+  options.domain = launch.domain;
+  options.interface = launch.interface;
+  options.qos = ReadSoundQos(launch.qos_file);
+  options.area = launch.area;
+  options.fleet_size = launch.fleet_size;
   return options;
 }
 
-std::vector<link::EarTopic> EarTopics(const std::vector<TopicOutlook>& topics) {
-  std::vector<link::EarTopic> all;
+std::vector<link::ProbeTopic> ProbeTopics(const std::vector<TopicOutlook>& topics) {
+  std::vector<link::ProbeTopic> all;
   for (const TopicOutlook& topic : topics) all.push_back({topic.topic, topic.read_in});
   return all;
 }
@@ -86,44 +86,46 @@ std::vector<link::EarTopic> EarTopics(const std::vector<TopicOutlook>& topics) {
 class Probing {
  public:
   explicit Probing(const ProbeOrder& order)
-      : order_(order), observer_(OptionsOf(order.hearer.told)), since_(SteadyNow()) {
+      : order_(order), observer_(OptionsOf(order.hearer.launch)), since_(SteadyNow()) {
     // Blackouts count from the start of the run: the world publishes how long ago that was.
     while (HasBlackouts() && !run_began_ && SinceMs() < kRunTimeMs) {
       SleepUntil(SteadyNow() + kTurn);
-      NoteOwnWord(observer_.Take());
+      NoteReceiverReport(observer_.Take());
     }
-    ear_.emplace(Impaired(order.hearer.told), EarTopics(order.topics), order.hearer.told.id);
-    if (run_began_) ear_->StartImpairment(*run_began_);
+    probe_.emplace(Impaired(order.hearer.launch), ProbeTopics(order.topics),
+                   order.hearer.launch.id);
+    if (run_began_) probe_->StartImpairment(*run_began_);
   }
 
-  ProbeResult Listen() {
+  ProbeResult Poll() {
     while (!IsOver()) {
       SleepUntil(SteadyNow() + kTurn);
-      processes_ = ear_->Listen();
-      for (const link::EarProcess& process : processes_) {
+      processes_ = probe_->Poll();
+      for (const link::ProbedProcess& process : processes_) {
         if (IsSpeaker(process)) Note(process);
         if (IsHearer(process)) NoteHearer(process);
       }
       for (const TopicOutlook& topic : order_.topics) NoteFit(topic.topic);
-      for (std::string& line : ear_->TakeUnfit(SteadyNow())) {
+      for (std::string& line : probe_->TakeUnfit(SteadyNow())) {
         result_.unfit.push_back(std::move(line));
       }
-      NoteOwnWord(observer_.Take());
+      NoteReceiverReport(observer_.Take());
     }
     result_.listened_ms = SinceMs();
     return std::move(result_);
   }
 
  private:
-  static link::LinkOptions Impaired(const Instructions& told) {
-    link::LinkOptions options = OptionsOf(told);
-    options.impairment = told.impairment;
+  static link::LinkOptions Impaired(const LaunchOptions& launch) {
+    link::LinkOptions options = OptionsOf(launch);
+    options.impairment = launch.impairment;
     return options;
   }
   bool HasBlackouts() const {
-    return std::ranges::any_of(order_.hearer.told.impairment.rules, [](const ImpairmentRule& rule) {
-      return !rule.blackouts.empty() || rule.from_s || rule.to_s;
-    });
+    return std::ranges::any_of(order_.hearer.launch.impairment.rules,
+                               [](const ImpairmentRule& rule) {
+                                 return !rule.blackouts.empty() || rule.from_s || rule.to_s;
+                               });
   }
   double SinceMs() const { return Seconds(SteadyNow() - since_) * 1e3; }
 
@@ -134,7 +136,7 @@ class Probing {
       const auto found = result_.topics.find(topic.topic);
       return found != result_.topics.end() && found->second.samples > 0;
     });
-    return all && (OwnWordFits() || seconds >= kOwnWordSeconds);
+    return all && (ReceiverReportFits() || seconds >= kReceiverReportSeconds);
   }
   // Whether discovery has reported the readers of a hearer that does not answer.
   bool HasFits() const {
@@ -146,8 +148,8 @@ class Probing {
   // By what discovery reports of the two themselves.
   void NoteFit(const std::string& topic) {
     ProbedTopic& probed = result_.topics[topic];
-    for (const link::EarProcess& speaker : processes_) {
-      for (const link::EarProcess& hearer : processes_) {
+    for (const link::ProbedProcess& speaker : processes_) {
+      for (const link::ProbedProcess& hearer : processes_) {
         if (!IsSpeaker(speaker) || !IsHearer(hearer)) continue;
         for (const link::FoundEndpoint& writer : speaker.endpoints) {
           for (const link::FoundEndpoint& reader : hearer.endpoints) {
@@ -170,18 +172,19 @@ class Probing {
 
   // It published a status, and one of a hearer of beacons says that it took some; else it gets more
   // time.
-  bool OwnWordFits() const {
+  bool ReceiverReportFits() const {
     if (!order_.hearer_here) return HasFits();
-    if (order_.hearer.told.is_world) return true;
-    return result_.own_word && (order_.speaker.told.is_world || result_.own_word->taken > 0);
+    if (order_.hearer.launch.is_world) return true;
+    return result_.receiver_report &&
+           (order_.speaker.launch.is_world || result_.receiver_report->taken > 0);
   }
 
   // In containers every service is process 1: if both ids are known they must be the same.
-  static bool MayBe(const ProcessSituation& meant, const link::EarProcess& process) {
-    return meant.told.id == kNobody || process.vehicle == kNobody ||
-           meant.told.id == process.vehicle;
+  static bool MayBe(const ProcessSituation& meant, const link::ProbedProcess& process) {
+    return meant.launch.id == kNoVehicle || process.vehicle == kNoVehicle ||
+           meant.launch.id == process.vehicle;
   }
-  static bool Is(const ProcessSituation& meant, const link::EarProcess& process) {
+  static bool Is(const ProcessSituation& meant, const link::ProbedProcess& process) {
     if (!meant.participant.empty()) {
       return meant.participant == link::ParticipantText(process.guid);
     }
@@ -189,23 +192,23 @@ class Probing {
     if (meant.pid_inside != 0) {
       return process.process == static_cast<std::uint16_t>(meant.pid_inside);
     }
-    if (!meant.told.is_world) return process.vehicle == meant.told.id;
+    if (!meant.launch.is_world) return process.vehicle == meant.launch.id;
     return std::ranges::find(process.partitions, "world") != process.partitions.end();
   }
-  bool IsSpeaker(const link::EarProcess& process) const { return Is(order_.speaker, process); }
-  bool IsHearer(const link::EarProcess& process) const { return Is(order_.hearer, process); }
-  static std::string ForeignVendor(const link::EarProcess& process) {
+  bool IsSpeaker(const link::ProbedProcess& process) const { return Is(order_.speaker, process); }
+  bool IsHearer(const link::ProbedProcess& process) const { return Is(order_.hearer, process); }
+  static std::string ForeignVendor(const link::ProbedProcess& process) {
     return link::IsOurVendor(process.guid) ? "" : link::VendorOf(process.guid);
   }
-  void NoteHearer(const link::EarProcess& process) {
+  void NoteHearer(const link::ProbedProcess& process) {
     result_.hearer_discovered = true;
     result_.hearer_foreign = ForeignVendor(process);
-    result_.hearer_joined |= process.vehicle != kNobody;
+    result_.hearer_joined |= process.vehicle != kNoVehicle;
   }
 
-  void Note(const link::EarProcess& process) {
+  void Note(const link::ProbedProcess& process) {
     result_.discovered = true;
-    result_.joined |= process.vehicle != kNobody;
+    result_.joined |= process.vehicle != kNoVehicle;
     result_.host_id = process.host_id;
     result_.speaker_foreign = ForeignVendor(process);
     for (const auto& [name, count] : process.topics) {
@@ -216,12 +219,13 @@ class Probing {
     }
   }
 
-  void NoteOwnWord(const link::Observed& observed) {
+  void NoteReceiverReport(const link::Observed& observed) {
     for (const VehicleStatus& status : observed.statuses) {
-      if (order_.hearer.told.id == kNobody || status.vehicle != order_.hearer.told.id) continue;
-      result_.own_word =
-          OwnWord{status.peers_heard,       status.beacons.taken,      status.beacons.accepted,
-                  status.beacons.not_heard, status.beacons.Rejected(), status.qos.incompatible_qos};
+      if (order_.hearer.launch.id == kNoVehicle || status.vehicle != order_.hearer.launch.id)
+        continue;
+      result_.receiver_report = ReceiverReport{
+          status.peers_heard,       status.beacons.taken,      status.beacons.accepted,
+          status.beacons.not_heard, status.beacons.Rejected(), status.qos.incompatible_qos};
     }
     for (const Truth& truth : observed.truths) {
       if (truth.time_s < 0) continue;
@@ -233,8 +237,8 @@ class Probing {
   link::ObserverLink observer_;
   const SteadyTime since_;
   std::optional<SteadyTime> run_began_;
-  std::optional<link::Ear> ear_;
-  std::vector<link::EarProcess> processes_;
+  std::optional<link::DiscoveryProbe> probe_;
+  std::vector<link::ProbedProcess> processes_;
   ProbeResult result_;
 };
 
@@ -262,7 +266,7 @@ std::string Written(const ProbeResult& result) {
   if (!result.speaker_foreign.empty()) {
     text += fmt::format("speaker_foreign {}\n", result.speaker_foreign);
   }
-  if (const auto& word = result.own_word) {
+  if (const auto& word = result.receiver_report) {
     text += fmt::format("word {} {} {} {} {} {}\n", word->peers_heard, word->taken, word->accepted,
                         word->too_far, word->rejected, word->incompatible);
   }
@@ -302,7 +306,7 @@ ProbeResult Understood(const std::string& text) {
       result.topics[name] = topic;
     }
     if (kind == "word") {
-      OwnWord& word = result.own_word.emplace();
+      ReceiverReport& word = result.receiver_report.emplace();
       words >> word.peers_heard >> word.taken >> word.accepted >> word.too_far >> word.rejected >>
           word.incompatible;
     }
@@ -311,14 +315,14 @@ ProbeResult Understood(const std::string& text) {
 }
 
 // The name each process gives itself, by the low half of its process id.
-std::string NamesHeard(const Instructions& told, std::set<std::uint16_t> wanted) {
-  link::Ear ear(OptionsOf(told), {}, kNobody);
+std::string NamesHeard(const LaunchOptions& launch, std::set<std::uint16_t> wanted) {
+  link::DiscoveryProbe probe(OptionsOf(launch), {}, kNoVehicle);
   std::string text;
   for (const SteadyTime end = SteadyNow() + kNamesTime; SteadyNow() < end && !wanted.empty();) {
     SleepUntil(SteadyNow() + kTurn);
     text.clear();
-    for (const link::EarProcess& process : ear.Listen()) {
-      if (process.vehicle == kNobody) continue;
+    for (const link::ProbedProcess& process : probe.Poll()) {
+      if (process.vehicle == kNoVehicle) continue;
       wanted.erase(process.process);
       text += fmt::format("name {} {}\n", process.process, Number(process.vehicle));
     }
@@ -339,14 +343,14 @@ std::string InPlaceOf(const ProcessSituation& process, const std::function<std::
       return text;
     }
   };
-  return AskChild(in_its_place).text;
+  return RunInChild(in_its_place).text;
 }
 
 }  // namespace
 
 ProbeResult Probe(const ProbeOrder& order) {
   const std::string text =
-      InPlaceOf(order.hearer, [&order] { return Written(Probing(order).Listen()); });
+      InPlaceOf(order.hearer, [&order] { return Written(Probing(order).Poll()); });
   ProbeResult result = Understood(text);
   if (text.empty()) result.trouble = "the probing process ended without a word";
   return result;
@@ -355,7 +359,7 @@ ProbeResult Probe(const ProbeOrder& order) {
 std::map<std::uint16_t, VehicleId> ListenForNames(const ProcessSituation& place,
                                                   const std::set<std::uint16_t>& wanted) {
   std::map<std::uint16_t, VehicleId> names;
-  std::istringstream words(InPlaceOf(place, [&] { return NamesHeard(place.told, wanted); }));
+  std::istringstream words(InPlaceOf(place, [&] { return NamesHeard(place.launch, wanted); }));
   std::string kind;
   std::uint16_t process = 0;
   std::uint32_t id = 0;

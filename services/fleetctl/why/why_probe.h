@@ -23,7 +23,7 @@ struct ProbedTopic {
 };
 
 // The hearer's own status, if one was received.
-struct OwnWord {
+struct ReceiverReport {
   std::uint32_t peers_heard = 0;  // near enough, and with a fresh beacon
   std::uint32_t taken = 0;        // beacons of any vehicle, since it started; here and below
   std::uint32_t accepted = 0;
@@ -43,7 +43,7 @@ struct ProbeResult {
   bool hearer_joined = false;
   std::optional<std::uint16_t> host_id;       // as its participant reports it
   std::map<std::string, ProbedTopic> topics;  // by name
-  std::optional<OwnWord> own_word;
+  std::optional<ReceiverReport> receiver_report;
   // The vendor of its DDS, if it is not ours.
   std::string hearer_foreign;
   std::string speaker_foreign;

@@ -86,9 +86,9 @@ bool AnyDisagrees(const WhyReport& report) {
          });
 }
 
-std::string OwnWordText(const WhyReport& report) {
-  if (!Probed(report) || !report.probe->own_word) return {};
-  const OwnWord& word = *report.probe->own_word;
+std::string ReceiverReportText(const WhyReport& report) {
+  if (!Probed(report) || !report.probe->receiver_report) return {};
+  const ReceiverReport& word = *report.probe->receiver_report;
   return fmt::format(
       "its own status: {} near peer{} with a fresh beacon; of {} beacons taken since it started {} "
       "accepted, {} from too far, {} rejected; {} incompatible writer{}",
@@ -123,8 +123,8 @@ Json TopicJson(const WhyReport& report, const TopicOutlook& topic) {
   Json object;
   object["topic"] = topic.topic;
   object["verdict"] = Word(verdict.verdict);
-  if (report.foretold) object["predicted"] = Word(topic.outlook);
-  if (report.foretold) object["predicted_in_place"] = Word(topic.in_place);
+  if (report.predicted) object["predicted"] = Word(topic.outlook);
+  if (report.predicted) object["predicted_in_place"] = Word(topic.in_place);
   if (Probed(report)) {
     object["matched"] = probed.matched;
     object["samples"] = probed.samples;
@@ -141,8 +141,8 @@ Json TopicJson(const WhyReport& report, const TopicOutlook& topic) {
 }
 
 // Whether the vehicle was discovered, and without a place.
-bool IsWithoutPlace(const Instructions& told, bool discovered, bool joined, double listened_ms) {
-  return !told.is_world && discovered && !joined && listened_ms >= kLongEnoughMs;
+bool IsWithoutPlace(const LaunchOptions& launch, bool discovered, bool joined, double listened_ms) {
+  return !launch.is_world && discovered && !joined && listened_ms >= kLongEnoughMs;
 }
 
 bool NeedsPlace(const TopicOutlook& topic) {
@@ -180,10 +180,10 @@ void AddNotJoined(const ProcessSituation& hearer, const ProcessSituation& speake
                   WhyReport* report) {
   if (!Probed(*report)) return;
   const ProbeResult& probe = *report->probe;
-  report->hearer_without_place =
-      IsWithoutPlace(hearer.told, probe.hearer_discovered, probe.hearer_joined, probe.listened_ms);
+  report->hearer_without_place = IsWithoutPlace(hearer.launch, probe.hearer_discovered,
+                                                probe.hearer_joined, probe.listened_ms);
   report->speaker_without_place =
-      IsWithoutPlace(speaker.told, probe.discovered, probe.joined, probe.listened_ms);
+      IsWithoutPlace(speaker.launch, probe.discovered, probe.joined, probe.listened_ms);
   for (TopicOutlook& topic : report->topics) {
     if (!NeedsPlace(topic)) continue;
     if (report->hearer_without_place) topic.causes.push_back(NotJoined(hearer, true));
@@ -193,7 +193,7 @@ void AddNotJoined(const ProcessSituation& hearer, const ProcessSituation& speake
 }
 
 void AddUnfit(WhyReport* report) {
-  if (!Probed(*report) || report->foretold) return;
+  if (!Probed(*report) || report->predicted) return;
   for (TopicOutlook& topic : report->topics) {
     const ProbedTopic probed = ProbedOf(*report, topic.topic);
     if (!report->hearer_here && !probed.unfit.empty()) {
@@ -221,15 +221,15 @@ TopicVerdict VerdictOf(const WhyReport& report, const TopicOutlook& topic) {
                         : heard && probed.fits ? Verdict::kHears
                                                : Verdict::kNotKnown;
     }
-    verdict.disagree = report.foretold && topic.in_place != Outlook::kNotKnown &&
+    verdict.disagree = report.predicted && topic.in_place != Outlook::kNotKnown &&
                        heard != (topic.in_place == Outlook::kHears);
     // It could not be predicted.
     if (!heard && report.speaker_without_place && NeedsPlace(topic)) verdict.disagree = false;
-  } else if (topic.outlook != Outlook::kNotKnown && report.foretold) {
+  } else if (topic.outlook != Outlook::kNotKnown && report.predicted) {
     verdict.verdict = topic.outlook == Outlook::kHears ? Verdict::kHears : Verdict::kDoesNot;
   }
   const std::string predicted =
-      !report.foretold ? "not predicted"
+      !report.predicted ? "not predicted"
       : own && topic.outlook == Outlook::kCannot
           ? fmt::format("predicted: cannot, another in its place {}", Word(topic.in_place))
           : fmt::format("predicted: {}", Word(topic.outlook));
@@ -238,13 +238,13 @@ TopicVerdict VerdictOf(const WhyReport& report, const TopicOutlook& topic) {
 }
 
 std::string Contradiction(const WhyReport& report) {
-  if (!Probed(report) || !report.probe->own_word || !report.foretold) return {};
+  if (!Probed(report) || !report.probe->receiver_report || !report.predicted) return {};
   for (const TopicOutlook& topic : report.topics) {
     if (IsItselfDeaf(report, topic)) return "it cannot, and yet it publishes its status";
     const bool hears = VerdictOf(report, topic).verdict == Verdict::kHears;
     const double heard_for_ms =
         report.probe->listened_ms - ProbedOf(report, topic.topic).first_ms.value_or(0);
-    if (topic.topic == "fleet/beacon" && hears && report.probe->own_word->taken == 0 &&
+    if (topic.topic == "fleet/beacon" && hears && report.probe->receiver_report->taken == 0 &&
         heard_for_ms >= kLongEnoughMs) {
       return "a reader in its place hears, and by its own status it took no beacon at all";
     }
@@ -264,7 +264,7 @@ std::string ToText(const WhyReport& report) {
     const std::string more = Contradiction(report);
     text += "prediction and probe disagree" + (more.empty() ? "" : ": " + more) + "\n";
   }
-  for (const std::string& line : {OwnWordText(report), HostIdText(report)}) {
+  for (const std::string& line : {ReceiverReportText(report), HostIdText(report)}) {
     if (!line.empty()) text += line + "\n";
   }
   for (const std::string& fact : report.not_known) text += "not known: " + fact + "\n";
@@ -288,8 +288,8 @@ std::string ToJson(const WhyReport& report) {
   if (Probed(report) && !report.probe->speaker_foreign.empty()) {
     object["speaker_foreign"] = report.probe->speaker_foreign;
   }
-  if (Probed(report) && report.probe->own_word) {
-    const OwnWord& word = *report.probe->own_word;
+  if (Probed(report) && report.probe->receiver_report) {
+    const ReceiverReport& word = *report.probe->receiver_report;
     Json own;
     own["peers_heard"] = word.peers_heard;
     own["taken"] = word.taken;
@@ -308,7 +308,7 @@ std::string ToJson(const WhyReport& report) {
 }
 
 int ExitCode(const WhyReport& report) {
-  if (!report.foretold && !Probed(report)) return 2;
+  if (!report.predicted && !Probed(report)) return 2;
   const auto any = [&](Verdict verdict) {
     return std::ranges::any_of(report.topics, [&](const TopicOutlook& topic) {
       return VerdictOf(report, topic).verdict == verdict;

@@ -15,7 +15,7 @@ struct WhyReport {
   std::string hearer;  // "vehicle 1 (pid 7)"
   std::string speaker;
   bool hearer_here = true;  // it is on this machine
-  bool foretold = true;     // false: one of the two is not
+  bool predicted = true;    // false: one of the two is not
   std::vector<TopicOutlook> topics;
   // Found by the probe alone; here and below. Without a place in a world a vehicle communicates
   // only with worlds.

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "services/qos/rules.h"
+#include "services/qos/qos_rules.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t kSpareFiles = 16;
 
 std::string OwnPartition(VehicleId vehicle) {
-  return vehicle == kNobody ? "v*" : fmt::format("v{}", Number(vehicle));
+  return vehicle == kNoVehicle ? "v*" : fmt::format("v{}", Number(vehicle));
 }
 
 Outlook OutlookOf(const Causes& causes, bool facts_known, bool in_place) {
@@ -27,7 +27,7 @@ Outlook OutlookOf(const Causes& causes, bool facts_known, bool in_place) {
 
 // What the outlook assumes if there is no cause against it.
 bool FactsKnown(const ProcessSituation& process) {
-  return process.told.domain != 0 && process.network_namespace && process.addresses &&
+  return process.launch.domain != 0 && process.network_namespace && process.addresses &&
          process.profiles && process.state;
 }
 
@@ -47,7 +47,7 @@ void CheckProfilesChanged(const ProcessSituation& process, Causes* causes) {
   causes->push_back(
       {{qos::Severity::kWarning,
         "profiles_changed",
-        {process.told.qos_file, 0},
+        {process.launch.qos_file, 0},
         NameOf(process),
         "the file was written to after the process started",
         "The process runs with what it read then, which may differ from what is predicted here.",
@@ -75,14 +75,14 @@ void CheckState(const ProcessSituation& process, bool hears, Causes* causes) {
 }
 
 void CheckParticipant(const ProcessSituation& process, bool hears, Causes* causes) {
-  if (!process.ports || process.told.domain == 0 || !ParticipantIds(process).empty()) return;
+  if (!process.ports || process.launch.domain == 0 || !ParticipantIds(process).empty()) return;
   if (process.state == 'Z') return;  // said already
   causes->push_back({{qos::Severity::kError,
                       "no_participant",
                       {},
                       NameOf(process),
                       fmt::format("holds {} UDP ports, and none of domain {}",
-                                  process.ports->size(), process.told.domain),
+                                  process.ports->size(), process.launch.domain),
                       "It has no participant in its domain: it neither hears nor sends.",
                       "its log says why; mutation_tries limits how many participants a host has"},
                      Weight::kPrevents,
@@ -114,7 +114,7 @@ void CheckProcess(const ProcessSituation& process, bool hears, Causes* causes) {
   CheckEnvironment(process, causes);
 }
 
-std::vector<TopicOutlook> TopicsBetween(const Instructions& hearer, const Instructions& speaker) {
+std::vector<TopicOutlook> TopicsBetween(const LaunchOptions& hearer, const LaunchOptions& speaker) {
   std::vector<TopicOutlook> topics;
   const auto add = [&](const char* topic, std::string read_in) {
     topics.push_back({.topic = topic, .read_in = std::move(read_in), .causes = {}});
@@ -143,7 +143,7 @@ std::vector<TopicOutlook> TopicsBetween(const Instructions& hearer, const Instru
 std::vector<TopicOutlook> Predict(const ProcessSituation& hearer, const ProcessSituation& speaker,
                                   std::uint32_t vehicles) {
   const bool known = FactsKnown(hearer) && FactsKnown(speaker);
-  std::vector<TopicOutlook> topics = TopicsBetween(hearer.told, speaker.told);
+  std::vector<TopicOutlook> topics = TopicsBetween(hearer.launch, speaker.launch);
   for (TopicOutlook& topic : topics) {
     Causes causes;
     CheckDomains(hearer, speaker, &causes);

@@ -42,7 +42,7 @@ struct TopicOutlook {
 
 // What the hearer reads of the speaker: between vehicles beacons, and of the world the data of the
 // vehicle's sensors. Nothing between two worlds.
-std::vector<TopicOutlook> TopicsBetween(const Instructions& hearer, const Instructions& speaker);
+std::vector<TopicOutlook> TopicsBetween(const LaunchOptions& hearer, const LaunchOptions& speaker);
 
 // `vehicles`: the number of vehicles in the hearer's domain, as far as is known.
 std::vector<TopicOutlook> Predict(const ProcessSituation& hearer, const ProcessSituation& speaker,

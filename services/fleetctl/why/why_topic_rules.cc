@@ -60,8 +60,8 @@ void CheckWriterInstances(const ProcessSituation& speaker, const qos::Profile& w
 }
 
 bool FitsBetween(const ImpairmentRule& rule, const ProcessSituation& hearer,
-                 const Instructions& speaker) {
-  if (rule.to_vehicle != kNobody && rule.to_vehicle != hearer.told.id) return false;
+                 const LaunchOptions& speaker) {
+  if (rule.to_vehicle != kNoVehicle && rule.to_vehicle != hearer.launch.id) return false;
   switch (rule.from) {
     case ImpairedSender::kAnyone:
       return true;
@@ -83,9 +83,9 @@ bool LosesMuch(const ImpairmentRule& rule) {
 
 // The rule that applies to the hearer's packets from the speaker: the last of those that match and
 // are always active.
-const ImpairmentRule* RuleBetween(const ProcessSituation& hearer, const Instructions& speaker) {
+const ImpairmentRule* RuleBetween(const ProcessSituation& hearer, const LaunchOptions& speaker) {
   const ImpairmentRule* last = nullptr;
-  for (const ImpairmentRule& rule : hearer.told.impairment.rules) {
+  for (const ImpairmentRule& rule : hearer.launch.impairment.rules) {
     if (FitsBetween(rule, hearer, speaker) && !HoldsForATime(rule)) last = &rule;
   }
   return last;
@@ -96,9 +96,9 @@ const ImpairmentRule* RuleBetween(const ProcessSituation& hearer, const Instruct
 void CheckPartitions(const ProcessSituation& hearer, const ProcessSituation& speaker,
                      const TopicOutlook& topic, Causes* causes) {
   if (topic.topic != "fleet/beacon") return;  // all others are the same in every area
-  const std::string written = fmt::format("{}/v{}", speaker.told.area, Number(speaker.told.id));
+  const std::string written = fmt::format("{}/v{}", speaker.launch.area, Number(speaker.launch.id));
   if (fnmatch(topic.read_in.c_str(), written.c_str(), 0) == 0) return;
-  const char* const open = speaker.told.partition_free ? " and without a partition" : "";
+  const char* const open = speaker.launch.partition_free ? " and without a partition" : "";
   causes->push_back(
       {{qos::Severity::kError,
         "partition_apart",
@@ -106,7 +106,7 @@ void CheckPartitions(const ProcessSituation& hearer, const ProcessSituation& spe
         "area",
         fmt::format("{} reads partition {}, {} writes {}{}", NameOf(hearer), topic.read_in,
                     NameOf(speaker), written, open),
-        speaker.told.partition_free
+        speaker.launch.partition_free
             ? "The names do not match, no wildcard matches what has none, and no status reports it."
             : "The names do not match, and no status of DDS reports it.",
         "the same area in the scenarios of both"},
@@ -130,17 +130,17 @@ void CheckPolicies(const ProcessSituation& hearer, const ProcessSituation& speak
                        Weight::kPrevents});
   }
   CheckWriterInstances(speaker, *writer, causes);
-  if (!speaker.told.is_world) CheckInstances(hearer, *reader, vehicles, causes);
+  if (!speaker.launch.is_world) CheckInstances(hearer, *reader, vehicles, causes);
 }
 
 namespace {
 
 void CheckRulesOfATime(const ProcessSituation& hearer, const ProcessSituation& speaker,
                        const std::string& who, Causes* causes) {
-  const auto& rules = hearer.told.impairment.rules;
+  const auto& rules = hearer.launch.impairment.rules;
   const auto holds = [&](const ImpairmentRule& rule) {
     return HoldsForATime(rule) && (LosesMuch(rule) || !rule.blackouts.empty()) &&
-           FitsBetween(rule, hearer, speaker.told);
+           FitsBetween(rule, hearer, speaker.launch);
   };
   const auto first = std::ranges::find_if(rules, holds);
   if (first == rules.end()) return;
@@ -164,7 +164,7 @@ void CheckImpairment(const ProcessSituation& hearer, const ProcessSituation& spe
                      Causes* causes) {
   const std::string who = fmt::format("{} drops what comes of {}", NameOf(hearer), NameOf(speaker));
   CheckRulesOfATime(hearer, speaker, who, causes);
-  const ImpairmentRule* const rule = RuleBetween(hearer, speaker.told);
+  const ImpairmentRule* const rule = RuleBetween(hearer, speaker.launch);
   if (rule == nullptr) return;
   const bool deaf = rule->loss >= 1;
   if (LosesMuch(*rule)) {

@@ -45,7 +45,7 @@ bool FromLines(std::string_view lines, std::vector<LiveValue>& values) {
 
 }  // namespace
 
-wire::Order ToWire(const AdminOrder& order) {
+wire::Order ToWire(const AdminRequest& order) {
   wire::Order sent;
   sent.vehicle(Number(order.vehicle));
   sent.number(order.number);
@@ -56,12 +56,12 @@ wire::Order ToWire(const AdminOrder& order) {
   return sent;
 }
 
-bool FromWire(const wire::Order& sample, AdminOrder& order) {
+bool FromWire(const wire::Order& sample, AdminRequest& order) {
   order.vehicle = VehicleId{sample.vehicle()};
   order.number = sample.number();
   order.profiles = {sample.name().c_str(), sample.profiles().c_str()};
   order.seal = sample.seal();
-  return FromWireEnum(sample.kind(), giveway::OrderKind::kKeepRing, order.kind);
+  return FromWireEnum(sample.kind(), giveway::AdminRequestKind::kKeepRing, order.kind);
 }
 
 wire::Answer ToWire(const AdminAnswer& answer) {

@@ -141,7 +141,7 @@ wire::TimingReport ToWirePart(const DriveFigures& timing) {
   sent.tick_jitter_us(ToWirePart(timing.Of(DriveFigure::kTickJitter)));
   sent.turn_us(ToWirePart(timing.Of(DriveFigure::kTurn)));
   sent.reaction_us(ToWirePart(timing.Of(DriveFigure::kReaction)));
-  sent.reaction_way_um(ToWirePart(timing.Of(DriveFigure::kReactionWay)));
+  sent.reaction_way_um(ToWirePart(timing.Of(DriveFigure::kReactionDistance)));
   sent.reaction_share_ppm(ToWirePart(timing.Of(DriveFigure::kReactionShare)));
   const ReactionMargin margin = timing.narrowest.value_or(ReactionMargin{});
   sent.margin_known(timing.narrowest.has_value());

@@ -31,7 +31,7 @@ static_assert(SameOrder(wire::QosEventKind::QOS_EVENT_SAMPLE_LOST,
                         giveway::QosEventKind::kSampleLost));
 static_assert(SameOrder(wire::RunPhase::RUN_ENDED, RunState::kEnded));
 static_assert(SameOrder(wire::EventKind::EVENT_FAULT_OVER, giveway::EventKind::kFaultOver));
-static_assert(SameOrder(wire::OrderKind::ORDER_KEEP_RING, giveway::OrderKind::kKeepRing));
+static_assert(SameOrder(wire::OrderKind::ORDER_KEEP_RING, giveway::AdminRequestKind::kKeepRing));
 static_assert(SameOrder(wire::AnswerState::ANSWER_REFUSED, giveway::AnswerState::kRefused));
 
 template <typename Wire, typename Ours>

@@ -270,7 +270,7 @@ class DiscoveryListener : public dds::DomainParticipantListener {
   // The endpoints of others found, or found changed, since the last call; of too many, the first.
   std::vector<FoundEndpoint> TakeEndpoints() { return endpoints_.Take(); }
 
-  bool HasFoundAnybody() const { return has_found_anybody_.load(std::memory_order_relaxed); }
+  bool HasFoundAny() const { return has_found_any_.load(std::memory_order_relaxed); }
 
   // Participants whose lease the library saw end: of each writer of theirs it keeps a record.
   std::uint32_t Dropped() const { return dropped_.load(std::memory_order_relaxed); }
@@ -308,7 +308,7 @@ class DiscoveryListener : public dds::DomainParticipantListener {
 
  private:
   void NoteParticipant(bool dropped) {
-    has_found_anybody_.store(true, std::memory_order_relaxed);
+    has_found_any_.store(true, std::memory_order_relaxed);
     if (dropped) dropped_.fetch_add(1, std::memory_order_relaxed);
   }
 
@@ -330,7 +330,7 @@ class DiscoveryListener : public dds::DomainParticipantListener {
 #endif
 
   EndpointQueue endpoints_;
-  std::atomic<bool> has_found_anybody_{false};
+  std::atomic<bool> has_found_any_{false};
   std::atomic<std::uint32_t> dropped_{0};
 };
 

@@ -97,7 +97,7 @@ class FilteredTransport final : public ForwardingTransport {
   PacketVerdict Examine(Bytes packet, std::uint32_t source, std::optional<Farewell>* farewell) {
     const SteadyTime now(steady_clock::now().time_since_epoch());
     const std::scoped_lock lock(mutex_);
-    const PacketVerdict verdict = filter_.Judge(packet, source, now);
+    const PacketVerdict verdict = filter_.Check(packet, source, now);
     if (verdict.drop == PacketDrop::kNone && descriptor_.options.says_farewell &&
         leases_.Hear(packet.first(verdict.bytes), now)) {
       *farewell = leases_.TakeFarewell(now);

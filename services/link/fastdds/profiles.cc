@@ -6,7 +6,7 @@
 #include "services/link/fastdds/fastdds_version.h"
 #include "services/link/fastdds/library_log.h"
 #include "services/link/fastdds/link_options.h"
-#include "services/link/fastdds/profile_words.h"
+#include "services/link/fastdds/profile_spelling.h"
 
 namespace giveway::link {
 namespace {
@@ -28,7 +28,7 @@ void ShutOtherWaysIn() {
 }
 
 bool Load(const std::string& text) {
-  const std::string own = InOwnWords(text);
+  const std::string own = InOwnSpelling(text);
   auto* factory = dds::DomainParticipantFactory::get_instance();
   return Ok(factory->load_XML_profiles_string(own.data(), own.size()));
 }

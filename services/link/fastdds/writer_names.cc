@@ -22,19 +22,19 @@ thread_local rtps::GUID_t found_by_this_thread;
 }  // namespace
 
 VehicleId NamedVehicle(const std::vector<std::string>& partitions) {
-  if (partitions.size() != 1) return kNobody;
+  if (partitions.size() != 1) return kNoVehicle;
   std::string_view name = partitions.front();
   name.remove_prefix(name.rfind('/') + 1);  // npos + 1 is 0: no area before the name
-  if (name.size() < 2 || name[0] != 'v' || name[1] == '0') return kNobody;
+  if (name.size() < 2 || name[0] != 'v' || name[1] == '0') return kNoVehicle;
   std::uint32_t number = 0;
   const char* const end = name.data() + name.size();
   const auto [stop, error] = std::from_chars(name.data() + 1, end, number);
-  if (error != std::errc{} || stop != end) return kNobody;
+  if (error != std::errc{} || stop != end) return kNoVehicle;
   return VehicleId{number};
 }
 
 std::string BeaconArea(const std::vector<std::string>& partitions) {
-  if (NamedVehicle(partitions) == kNobody) return "";
+  if (NamedVehicle(partitions) == kNoVehicle) return "";
   const std::string& name = partitions.front();
   const std::size_t slash = name.rfind('/');
   return slash == std::string::npos ? "" : name.substr(0, slash);

@@ -17,7 +17,7 @@
 namespace giveway::link {
 
 // The vehicle named by a writer's partitions: exactly one partition whose last part is `v<id>`.
-// kNobody for anything else: wildcards, several partitions, leading zeros, numbers out of range.
+// kNoVehicle for anything else: wildcards, several partitions, leading zeros, numbers out of range.
 VehicleId NamedVehicle(const std::vector<std::string>& partitions);
 // The area of a writer of beacons, whose partition is `<area>/v<id>`; empty for any other writer.
 std::string BeaconArea(const std::vector<std::string>& partitions);
@@ -30,8 +30,8 @@ rtps::GUID_t GuidOf(const dds::InstanceHandle_t& handle);
 
 // What the link knows of one writer.
 struct WriterEntry {
-  VehicleId vehicle = kNobody;  // named by its partition
-  std::string area;             // of a writer of beacons, else empty
+  VehicleId vehicle = kNoVehicle;  // named by its partition
+  std::string area;                // of a writer of beacons, else empty
   std::uint64_t identity = 0;
   std::uint64_t last_sequence = 0;  // of the last sample taken from it; 0 before the first
   std::uint32_t taken = 0;          // samples; wraps

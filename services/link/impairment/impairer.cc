@@ -27,7 +27,7 @@ Sender NamedBy(const std::vector<std::string>& partitions) {
   if (partitions.front() == "world") return {Sender::Kind::kWorld, 0};
   if (partitions.front().find('/') == std::string::npos) return {};
   const VehicleId vehicle = NamedVehicle(partitions);
-  if (vehicle == kNobody) return {};
+  if (vehicle == kNoVehicle) return {};
   return {Sender::Kind::kVehicle, Number(vehicle)};
 }
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "services/link/impairment/impairment.h"
+#include "services/link/impairment/channel_model.h"
 
 namespace giveway::link {
 

@@ -47,7 +47,7 @@ void BeaconInbox::Receive(const wire::Beacon& sample, const dds::SampleInfo& inf
   const Arrival arrival = FromWire(sample, received.beacon);
   received.received = now;
   received.crc_valid = arrival.crc_valid;
-  received.name_valid = entry->vehicle != kNobody && entry->vehicle == received.beacon.vehicle;
+  received.name_valid = entry->vehicle != kNoVehicle && entry->vehicle == received.beacon.vehicle;
   received.writer = entry->identity;
   received.arrival = ArrivalOf(*entry, sequence);
   const bool sound = arrival.crc_valid && arrival.readable && received.name_valid;
@@ -81,9 +81,9 @@ void BeaconInbox::NoteRefusal(const wire::Beacon& sample, const WriterEntry& ent
     refusal.field = "vehicle";
     refusal.why =
         "vehicle is " + std::to_string(sample.vehicle()) +
-        (entry.vehicle == kNobody ? ", and its writer's partition names none: must be AREA/vID"
-                                  : ", must be " + std::to_string(Number(entry.vehicle)) +
-                                        " as its writer's partition says");
+        (entry.vehicle == kNoVehicle ? ", and its writer's partition names none: must be AREA/vID"
+                                     : ", must be " + std::to_string(Number(entry.vehicle)) +
+                                           " as its writer's partition says");
   } else if (!arrival.crc_valid) {
     refusal.counter = "rejected_crc";
     refusal.field = "crc";

@@ -12,7 +12,7 @@ std::optional<FieldFault> FaultOf(const RosterEntry& entry, VehicleId own) {
   ranges.Hold("world_epoch", Number(entry.epoch), 1, kMostId);
   if (!entry.accepted) return ranges.Fault();  // of a refusal the rest says nothing
   const double id = Number(own);
-  if (own == kNobody) {
+  if (own == kNoVehicle) {
     ranges.Hold("vehicle", Number(entry.vehicle), 1, kMostId);
   } else {
     ranges.Hold("vehicle", Number(entry.vehicle), id, id);

@@ -9,7 +9,7 @@
 namespace giveway::link {
 
 // The first field that is not finite, not in range, or not meant for the vehicle `own`; nothing if
-// the entry is sound. `own`: kNobody before the vehicle has an id, then any will do.
+// the entry is sound. `own`: kNoVehicle before the vehicle has an id, then any will do.
 std::optional<FieldFault> FaultOf(const RosterEntry& entry, VehicleId own);
 
 }  // namespace giveway::link

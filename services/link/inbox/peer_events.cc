@@ -10,10 +10,10 @@ PeerEvents::PeerEvents(const WriterNames& names, const rtps::GuidPrefix_t& own, 
 void PeerEvents::Match(const rtps::GUID_t& writer) {
   if (writer.guidPrefix == own_) return;
   const WriterEntry* const entry = names_.Find(writer);
-  const VehicleId vehicle = entry == nullptr ? kNobody : entry->vehicle;
+  const VehicleId vehicle = entry == nullptr ? kNoVehicle : entry->vehicle;
   if (!writers_.try_emplace(Identity(writer), Writer{.vehicle = vehicle}).second) return;
-  if (vehicle != kNobody) ++peers_[vehicle].writers;
-  Tell(QosEventKind::kMatched, vehicle);
+  if (vehicle != kNoVehicle) ++peers_[vehicle].writers;
+  Emit(QosEventKind::kMatched, vehicle);
 }
 
 void PeerEvents::Unmatch(std::uint64_t writer) {
@@ -23,19 +23,19 @@ void PeerEvents::Unmatch(std::uint64_t writer) {
   writers_.erase(found);
   const auto peer = peers_.find(vehicle);
   if (peer != peers_.end() && --peer->second.writers == 0) peers_.erase(peer);
-  Tell(QosEventKind::kUnmatched, vehicle);
+  Emit(QosEventKind::kUnmatched, vehicle);
 }
 
 // The first sample of a writer is no return.
 void PeerEvents::SetSilent(std::uint64_t writer, bool silent) {
   const auto found = writers_.find(writer);
   if (found == writers_.end() || std::exchange(found->second.silent, silent) == silent) return;
-  Tell(silent ? QosEventKind::kLivelinessLost : QosEventKind::kLivelinessBack,
+  Emit(silent ? QosEventKind::kLivelinessLost : QosEventKind::kLivelinessBack,
        found->second.vehicle);
 }
 
 void PeerEvents::Miss(VehicleId vehicle, Peer* peer) {
-  if (!std::exchange(peer->missed, true)) Tell(QosEventKind::kDeadlineMissed, vehicle);
+  if (!std::exchange(peer->missed, true)) Emit(QosEventKind::kDeadlineMissed, vehicle);
 }
 
 void PeerEvents::Heard(VehicleId vehicle, SteadyTime now) {
@@ -45,20 +45,20 @@ void PeerEvents::Heard(VehicleId vehicle, SteadyTime now) {
   peer->second.heard = now;
 }
 
-void PeerEvents::Watch(SteadyTime now, Nanoseconds deadline, std::vector<QosEvent>& told) {
+void PeerEvents::Watch(SteadyTime now, Nanoseconds deadline, std::vector<QosEvent>& events) {
   now_ = now;
-  told_ = &told;
+  events_ = &events;
   for (auto& [vehicle, peer] : peers_) {
     if (peer.heard && now - *peer.heard > deadline) Miss(vehicle, &peer);
   }
 }
 
 VehicleId PeerEvents::Unfit(const ReaderEvent& event) {
-  if (area_.empty()) return kNobody;
+  if (area_.empty()) return kNoVehicle;
   const WriterEntry* unfit = names_.Find(GuidOf(event.handle));
   if (unfit == nullptr || !MayBeUnfit(*unfit)) unfit = NewestUnmatched();
   std::erase_if(unfit_, [this](std::uint64_t writer) { return names_.Find(writer) == nullptr; });
-  if (unfit == nullptr) return kNobody;
+  if (unfit == nullptr) return kNoVehicle;
   unfit_.insert(unfit->identity);
   return unfit->vehicle;
 }
@@ -86,9 +86,9 @@ void PeerEvents::NoteMatch(const ReaderEvent& event) {
   }
 }
 
-void PeerEvents::Translate(const ReaderNews& news, SteadyTime now, std::vector<QosEvent>& told) {
+void PeerEvents::Translate(const ReaderNews& news, SteadyTime now, std::vector<QosEvent>& events) {
   now_ = now;
-  told_ = &told;
+  events_ = &events;
   // All matches first: a writer that is matched a moment later is not the one that does not fit.
   for (const ReaderEvent& event : news.events) NoteMatch(event);
   for (const ReaderEvent& event : news.events) Follow(event);
@@ -104,7 +104,7 @@ void PeerEvents::Follow(const ReaderEvent& event) {
       break;
     }
     case ReaderEvent::Kind::kIncompatibleQos:
-      Tell(QosEventKind::kIncompatibleQos, Unfit(event));
+      Emit(QosEventKind::kIncompatibleQos, Unfit(event));
       break;
     case ReaderEvent::Kind::kMatched:
       Match(GuidOf(event.handle));

@@ -26,13 +26,13 @@ class PeerEvents {
   // prefix `own` are not reported: a reader matches its own participant's.
   PeerEvents(const WriterNames& names, const rtps::GuidPrefix_t& own, std::string area);
 
-  // Appends to `told`. `names` must be updated after `news` was taken.
-  void Translate(const ReaderNews& news, SteadyTime now, std::vector<QosEvent>& told);
+  // Appends to `events`. `names` must be updated after `news` was taken.
+  void Translate(const ReaderNews& news, SteadyTime now, std::vector<QosEvent>& events);
   // A sample of the vehicle was accepted: its next deadline miss is news again.
   void Heard(VehicleId vehicle, SteadyTime now);
   // Reports peers without an accepted sample for longer than `deadline`, unless the library did.
   // Like the library's, the watch starts with the first sample. After a drain.
-  void Watch(SteadyTime now, Nanoseconds deadline, std::vector<QosEvent>& told);
+  void Watch(SteadyTime now, Nanoseconds deadline, std::vector<QosEvent>& events);
 
   // Writers matched now, own excluded.
   std::uint32_t MatchedWriters() const { return static_cast<std::uint32_t>(writers_.size()); }
@@ -40,7 +40,7 @@ class PeerEvents {
 
  private:
   struct Writer {
-    VehicleId vehicle = kNobody;
+    VehicleId vehicle = kNoVehicle;
     bool silent = false;  // its liveliness is lost
   };
   struct Peer {
@@ -57,9 +57,9 @@ class PeerEvents {
   void Unmatch(std::uint64_t writer);
   void SetSilent(std::uint64_t writer, bool silent);
   void Miss(VehicleId vehicle, Peer* peer);
-  void Tell(QosEventKind kind, VehicleId vehicle) { told_->push_back({kind, vehicle, now_}); }
+  void Emit(QosEventKind kind, VehicleId vehicle) { events_->push_back({kind, vehicle, now_}); }
   // The vehicle that an event of incompatible QoS is about: that of the writer it names. If that
-  // one is not possible, the newest that is and was not reported before; else kNobody.
+  // one is not possible, the newest that is and was not reported before; else kNoVehicle.
   VehicleId Unfit(const ReaderEvent& event);
   // Whether it speaks in the area and is not matched.
   bool MayBeUnfit(const WriterEntry& writer) const;
@@ -73,7 +73,7 @@ class PeerEvents {
   std::unordered_set<std::uint64_t> matched_;          // own included
   std::unordered_set<std::uint64_t> unfit_;            // reported as incompatible
   SteadyTime now_{0};                                  // of the current call, as the next
-  std::vector<QosEvent>* told_ = nullptr;
+  std::vector<QosEvent>* events_ = nullptr;
 };
 
 }  // namespace giveway::link

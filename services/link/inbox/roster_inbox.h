@@ -55,7 +55,7 @@ class RosterInbox {
   Reader<wire::Roster> reader_;
   WorldBinding& world_;
   SessionId session_{};
-  VehicleId own_ = kNobody;
+  VehicleId own_ = kNoVehicle;
   RosterEntry newest_;
   Mark entries_ = 0;
   WorldCandidates candidates_;

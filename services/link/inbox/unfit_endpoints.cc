@@ -55,7 +55,7 @@ void UnfitEndpoints::Add(FoundEndpoint found, SteadyTime now) {
 
 bool UnfitEndpoints::IsDue(SteadyTime now) const { return !due_.empty() && due_.front() <= now; }
 
-std::vector<std::string> UnfitEndpoints::Judge(const std::vector<FoundEndpoint>& own,
+std::vector<std::string> UnfitEndpoints::Check(const std::vector<FoundEndpoint>& own,
                                                SteadyTime now) {
   std::vector<std::string> lines;
   for (; IsDue(now); due_.pop_front(), ++judged_) {

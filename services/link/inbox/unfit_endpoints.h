@@ -23,7 +23,7 @@ class UnfitEndpoints {
   void Add(FoundEndpoint found, SteadyTime now);
   bool IsDue(SteadyTime now) const;
   // Lines for the log, one an endpoint; each endpoint is judged once.
-  std::vector<std::string> Judge(const std::vector<FoundEndpoint>& own, SteadyTime now);
+  std::vector<std::string> Check(const std::vector<FoundEndpoint>& own, SteadyTime now);
   // Endpoints that are kept, judged or not.
   std::size_t Known() const { return found_.size(); }
 

@@ -91,7 +91,7 @@ PacketFilter::PacketFilter(const PacketFilterOptions& options)
                options.fleet_size, options.of_all_bodies),
       tokens_(kStrangersAtOnce + 2 * std::int64_t{options.fleet_size}) {}
 
-PacketVerdict PacketFilter::Judge(Bytes packet, std::uint32_t source, SteadyTime now) {
+PacketVerdict PacketFilter::Check(Bytes packet, std::uint32_t source, SteadyTime now) {
   if (options_.loopback_only && !IsLoopback(source)) return {PacketDrop::kForeignSource};
   if (!IsRtps(packet)) return {PacketDrop::kNotRtps};
   PacketVerdict verdict = CheckParts(packet);

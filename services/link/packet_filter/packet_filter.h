@@ -46,7 +46,7 @@ class PacketFilter {
 
   // `source`: the sender's IPv4 address, first octet highest. Calls come in the order of `now`, or
   // nearly.
-  PacketVerdict Judge(Bytes packet, std::uint32_t source, SteadyTime now);
+  PacketVerdict Check(Bytes packet, std::uint32_t source, SteadyTime now);
 
  private:
   PacketVerdict CheckParts(Bytes packet) const;

@@ -45,7 +45,7 @@ void RunFrames::NoteEvents(const FleetView& view, SteadyTime now) {
 void RunFrames::Note(const FleetView& view, SteadyTime now) {
   NoteEvents(view, now);
   DropOld(now);
-  if (now < due_ || !view.Heard().Anybody()) return;
+  if (now < due_ || !view.Heard().IsAnyHeard()) return;
   due_ = now + period_;
   frames_.push_back({now, FrameJson(view, now, 0)});
   bytes_ += frames_.back().json.size();

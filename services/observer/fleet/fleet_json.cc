@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "services/observer/fleet/frame_json.h"
+#include "services/observer/fleet/sample_format.h"
 #include "services/observer/fleet/sample_json.h"
-#include "services/observer/fleet/sample_words.h"
 
 namespace giveway {
 namespace {
@@ -30,10 +30,10 @@ Json PoseJson(const Pose& pose) {
 }
 
 // The few fields by which a fleet is looked over.
-Json RowJson(VehicleId id, const HeardVehicle& heard, const VehicleView* view, SteadyTime now) {
+Json RowJson(VehicleId id, const VehicleSnapshot& heard, const VehicleView* view, SteadyTime now) {
   Json row;
   row["vehicle"] = Number(id);
-  row["hearing"] = Name(heard.HearingAt(now));
+  row["hearing"] = Name(heard.LivenessAt(now));
   row["beacon_age_ms"] = AgeJson(heard.beacon_at, now);
   row["status_age_ms"] = AgeJson(heard.status_at, now);
   const Truth* body = view != nullptr ? view->Body() : nullptr;
@@ -46,10 +46,10 @@ Json RowJson(VehicleId id, const HeardVehicle& heard, const VehicleView* view, S
   if (heard.beacon) {
     row["mode"] = Name(heard.beacon->mode);
     row["rule"] = Name(heard.beacon->rule);
-    if (heard.beacon->gives_way_to != kNobody) {
+    if (heard.beacon->gives_way_to != kNoVehicle) {
       row["gives_way_to"] = Number(heard.beacon->gives_way_to);
     }
-    if (heard.beacon->blocked_by != kNobody) {
+    if (heard.beacon->blocked_by != kNoVehicle) {
       row["blocked_by"] = Number(heard.beacon->blocked_by);
     }
   }
@@ -62,7 +62,7 @@ Json RowJson(VehicleId id, const HeardVehicle& heard, const VehicleView* view, S
 }
 
 Json WorldJson(const FleetView& view, SteadyTime now) {
-  const HeardWorld& world = view.Heard().World();
+  const WorldSnapshot& world = view.Heard().World();
   Json object;
   object["heard"] = world.heard_at.has_value();
   if (!world.heard_at) return object;
@@ -89,10 +89,10 @@ std::string FleetJson(const FleetView& view, SteadyTime now) {
 std::optional<std::string> VehicleJson(const FleetView& view, VehicleId vehicle, SteadyTime now) {
   const auto found = view.Heard().Vehicles().find(vehicle);
   if (found == view.Heard().Vehicles().end()) return std::nullopt;
-  const HeardVehicle& heard = found->second;
+  const VehicleSnapshot& heard = found->second;
   Json object;
   object["vehicle"] = Number(vehicle);
-  object["hearing"] = Name(heard.HearingAt(now));
+  object["hearing"] = Name(heard.LivenessAt(now));
   object["beacon_age_ms"] = AgeJson(heard.beacon_at, now);
   object["status_age_ms"] = AgeJson(heard.status_at, now);
   const auto add = [&object](const char* name, const auto& sample) {

@@ -9,7 +9,7 @@
 #include <map>
 #include <optional>
 
-#include "services/observer/fleet/heard_fleet.h"
+#include "services/observer/fleet/fleet_snapshot.h"
 #include "services/types/figures/drive_figures.h"
 #include "services/types/range_scan.h"
 
@@ -55,7 +55,7 @@ class FleetView {
 
   void Fold(const link::Observed& observed, SteadyTime now);
 
-  const HeardFleet& Heard() const { return heard_; }
+  const FleetSnapshot& Heard() const { return heard_; }
   // Null for a vehicle of which only beacons came.
   const VehicleView* Find(VehicleId vehicle) const;
   const std::map<SignalId, SignalState>& Signals() const { return signals_; }
@@ -67,7 +67,7 @@ class FleetView {
  private:
   void FoldWorld(WorldEpoch epoch);
 
-  HeardFleet heard_;
+  FleetSnapshot heard_;
   std::map<VehicleId, VehicleView> vehicles_;
   std::map<SignalId, SignalState> signals_;
   std::deque<WorldEvent> events_;

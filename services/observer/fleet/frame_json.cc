@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "services/observer/fleet/sample_format.h"
 #include "services/observer/fleet/sample_json.h"
-#include "services/observer/fleet/sample_words.h"
 
 namespace giveway {
 namespace {
@@ -28,12 +28,12 @@ std::int64_t AgeMs(std::optional<SteadyTime> heard_at, SteadyTime now) {
   return heard_at ? static_cast<std::int64_t>(Milliseconds(now - *heard_at)) : kNone;
 }
 
-Pose PoseOf(const HeardVehicle& heard, const Truth* truth) {
+Pose PoseOf(const VehicleSnapshot& heard, const Truth* truth) {
   if (truth != nullptr) return truth->world_from_body;
   return heard.beacon ? heard.beacon->world_from_body : Pose{};
 }
 
-double SpeedOf(const HeardVehicle& heard, const Truth* truth) {
+double SpeedOf(const VehicleSnapshot& heard, const Truth* truth) {
   if (truth != nullptr) return truth->forward_m_s;
   if (heard.beacon) {
     return TwistFromWheels(heard.beacon->drive, heard.beacon->wheels).forward_m_s;
@@ -42,7 +42,7 @@ double SpeedOf(const HeardVehicle& heard, const Truth* truth) {
 }
 
 // The status names the peer of a decision, the beacon comes more often.
-Decision DecisionOf(const HeardVehicle& heard) {
+Decision DecisionOf(const VehicleSnapshot& heard) {
   Decision decision;
   if (heard.status) decision = heard.status->decision;
   if (heard.beacon) {
@@ -56,7 +56,7 @@ Decision DecisionOf(const HeardVehicle& heard) {
 
 using Row = std::array<std::int64_t, kVehicleColumns.size()>;
 
-Row RowOf(VehicleId id, const HeardVehicle& heard, const VehicleView* view, SteadyTime now) {
+Row RowOf(VehicleId id, const VehicleSnapshot& heard, const VehicleView* view, SteadyTime now) {
   const Truth* truth = view != nullptr ? view->Body() : nullptr;
   const Beacon beacon = heard.beacon.value_or(Beacon{});
   const Pose pose = PoseOf(heard, truth);
@@ -68,7 +68,7 @@ Row RowOf(VehicleId id, const HeardVehicle& heard, const VehicleView* view, Stea
       Milli(pose.position_world.y),
       Milli(pose.heading_rad),
       Milli(SpeedOf(heard, truth)),
-      static_cast<std::int64_t>(heard.HearingAt(now)),
+      static_cast<std::int64_t>(heard.LivenessAt(now)),
       static_cast<std::int64_t>(decision.mode),
       static_cast<std::int64_t>(decision.rule),
       Number(decision.peer),
@@ -110,13 +110,13 @@ Json RangesJson(const FleetView& view, SteadyTime now) {
   for (const auto& [id, heard] : view.Heard().Vehicles()) {
     const VehicleView* vehicle = view.Find(id);
     if (vehicle == nullptr || !vehicle->ranges) continue;
-    if (now - vehicle->ranges_at > HeardFleet::kSilentAfter) continue;
+    if (now - vehicle->ranges_at > FleetSnapshot::kSilentAfter) continue;
     object[std::to_string(Number(id))] = JsonArray(vehicle->ranges->readings, RangeOf);
   }
   return object;
 }
 
-Json WorldJson(const HeardWorld& world, SteadyTime now) {
+Json WorldJson(const WorldSnapshot& world, SteadyTime now) {
   Json object;
   object["epoch"] = Number(world.epoch);
   if (world.state) object["state"] = Name(*world.state);

@@ -8,13 +8,13 @@
 #include <string>
 #include <utility>
 
-#include "services/observer/fleet/sample_words.h"
+#include "services/observer/fleet/sample_format.h"
 
 namespace giveway {
 namespace {
 
 void AddId(std::string_view name, VehicleId vehicle, Json* json) {
-  if (vehicle != kNobody) (*json)[name] = Number(vehicle);
+  if (vehicle != kNoVehicle) (*json)[name] = Number(vehicle);
 }
 
 void AddTick(WorldEpoch epoch, Tick tick, Json* to) {
@@ -171,7 +171,7 @@ Json TimingOf(const DriveFigures& timing) {
   object["tick_jitter_us"] = FigureOf(timing.Of(DriveFigure::kTickJitter));
   object["turn_us"] = FigureOf(timing.Of(DriveFigure::kTurn));
   object["reaction_us"] = FigureOf(timing.Of(DriveFigure::kReaction));
-  object["reaction_way_um"] = FigureOf(timing.Of(DriveFigure::kReactionWay));
+  object["reaction_way_um"] = FigureOf(timing.Of(DriveFigure::kReactionDistance));
   object["reaction_share_ppm"] = FigureOf(timing.Of(DriveFigure::kReactionShare));
   object["beacon_latency_us"] = FigureOf(timing.Of(DriveFigure::kBeaconLatency));
   object["scan_latency_us"] = FigureOf(timing.Of(DriveFigure::kScanLatency));
@@ -277,8 +277,8 @@ void AddFields(const WorldEvent& event, Json* to) {
   json["time_s"] = event.time_s;
   AddId("vehicle", event.vehicle, to);
   AddId("other", event.other, to);
-  if (event.vehicle != kNobody) json["position_world"] = PointOf(event.position_world);
-  if (event.other != kNobody) {
+  if (event.vehicle != kNoVehicle) json["position_world"] = PointOf(event.position_world);
+  if (event.other != kNoVehicle) {
     json["other_position_world"] = PointOf(event.other_position_world);
   }
   json["value"] = event.value;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "services/observer/fleet/frame_json.h"
-#include "services/observer/fleet/sample_words.h"
+#include "services/observer/fleet/sample_format.h"
 #include "services/runtime/json.h"
 
 namespace giveway {
@@ -22,7 +22,7 @@ Json NamesUpTo(Enum last) {
 
 std::array<double, 2> PointJson(Vec2 point) { return {point.x, point.y}; }
 
-Json SonarJson(const VehicleProfile& profile) {
+Json SonarJson(const RobotModel& profile) {
   Json object;
   object["half_angle_rad"] = profile.sonar_half_angle_rad;
   object["max_range_m"] = profile.sonar_max_range_m;
@@ -82,7 +82,7 @@ std::string SceneJson(const SceneSource& source) {
   Json scene;
   scene["title"] = source.title;
   scene["columns"] = kVehicleColumns;
-  scene["hearings"] = NamesUpTo(Hearing::kLeft);
+  scene["hearings"] = NamesUpTo(Liveness::kLeft);
   scene["modes"] = NamesUpTo(Mode::kLeaving);
   scene["rules"] = NamesUpTo(Rule::kLeaving);
   scene["phases"] = NamesUpTo(SignalPhase::kGreen);

@@ -31,7 +31,7 @@ struct BeaconArrival {
 
 // One writer, while it is matched.
 struct BeaconAccount {
-  VehicleId writer = kNobody;
+  VehicleId writer = kNoVehicle;
   std::uint32_t boot_epoch = 0;
   std::uint32_t first = 0;  // as the writer numbers its beacons
   std::uint32_t last = 0;   // all up to here are counted below

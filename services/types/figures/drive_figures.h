@@ -14,14 +14,14 @@
 namespace giveway {
 
 enum class DriveFigure : std::uint8_t {
-  kBeaconAge,      // us: since the tick that the oldest beacon decided by answers, once a step
-  kTickJitter,     // us: how far the time between two scans was from what their ticks say
-  kTurn,           // us: from waking on a scan to the command sent
-  kReaction,       // us: from the scan of the tick that shows a cause to one of obeying wheels
-  kReactionWay,    // um: driven meanwhile
-  kReactionShare,  // millionths of the distance that was free as the cause was shown
-  kBeaconLatency,  // us: from publishing to reception, the longest of the beacons of a turn
-  kScanLatency,    // us: from publishing to reception of a scan
+  kBeaconAge,         // us: since the tick that the oldest beacon decided by answers, once a step
+  kTickJitter,        // us: how far the time between two scans was from what their ticks say
+  kTurn,              // us: from waking on a scan to the command sent
+  kReaction,          // us: from the scan of the tick that shows a cause to one of obeying wheels
+  kReactionDistance,  // um: driven meanwhile
+  kReactionShare,     // millionths of the distance that was free as the cause was shown
+  kBeaconLatency,     // us: from publishing to reception, the longest of the beacons of a turn
+  kScanLatency,       // us: from publishing to reception of a scan
 };
 inline constexpr std::size_t kDriveFigures = 8;
 

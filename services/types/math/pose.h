@@ -81,12 +81,12 @@ constexpr PoseCovariance operator+(const PoseCovariance& a, const PoseCovariance
 
 // Of a pose that has since been carried on by a displacement, along a heading as uncertain as it
 // says. F C F' with F = [1 0 -way.y; 0 1 way.x; 0 0 1].
-constexpr PoseCovariance Carried(const PoseCovariance& c, Vec2 way) {
-  const double xh = c.xh_m_rad - way.y * c.hh_rad2;
-  const double yh = c.yh_m_rad + way.x * c.hh_rad2;
-  return {.xx_m2 = c.xx_m2 - way.y * (c.xh_m_rad + xh),
-          .xy_m2 = c.xy_m2 + way.x * c.xh_m_rad - way.y * yh,
-          .yy_m2 = c.yy_m2 + way.x * (c.yh_m_rad + yh),
+constexpr PoseCovariance Carried(const PoseCovariance& c, Vec2 displacement) {
+  const double xh = c.xh_m_rad - displacement.y * c.hh_rad2;
+  const double yh = c.yh_m_rad + displacement.x * c.hh_rad2;
+  return {.xx_m2 = c.xx_m2 - displacement.y * (c.xh_m_rad + xh),
+          .xy_m2 = c.xy_m2 + displacement.x * c.xh_m_rad - displacement.y * yh,
+          .yy_m2 = c.yy_m2 + displacement.x * (c.yh_m_rad + yh),
           .xh_m_rad = xh,
           .yh_m_rad = yh,
           .hh_rad2 = c.hh_rad2};
@@ -106,7 +106,7 @@ inline Vec2 Forward(const Pose& world_from_body) {
 
 // A heading and its unit vector. Cached: sin and cos are expensive, and the heading is unchanged
 // while the vehicle is stationary or drives straight.
-struct KnownHeading {
+struct CachedHeading {
   double heading_rad = 0;
   Vec2 forward_world{1, 0};
 
@@ -121,7 +121,7 @@ struct KnownHeading {
 
 // The heading along a direction. Cached: an arctangent is even more expensive, and the direction is
 // unchanged while the vehicle is stationary.
-struct KnownBearing {
+struct CachedBearing {
   Vec2 direction_world{1, 0};
   double heading_rad = 0;
 

@@ -12,7 +12,7 @@ namespace giveway {
 struct Action {
   Decision decision;
   WheelSpeeds target;
-  VehicleId blocked_by = kNobody;  // see Steering
+  VehicleId blocked_by = kNoVehicle;  // see Steering
   int steer_side = 0;  // the side it turns to when passing an obstacle: 1 left, -1 right
   std::optional<double> away_rad;  // see Steering
 };

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "services/vehicle/decision/decision_rules.h"
 #include "services/vehicle/decision/lecture.h"
-#include "services/vehicle/decision/rules.h"
 #include "services/vehicle/decision/steering.h"
 #include "services/vehicle/situation/encounter.h"
 
@@ -21,8 +21,9 @@ bool IsAvoiding(Behaviour behaviour) {
 Mode ModeOf(const Situation& s) {
   if (s.own.leaving) return Mode::kLeaving;
   if (s.own.blind_sensor >= 0 || s.own.lost) return Mode::kHalt;
-  return s.movers.deaf || s.near.someone_lost || s.near.someone_doubted ? Mode::kSensorOnly
-                                                                        : Mode::kCooperative;
+  return s.movers.unidentified || s.near.someone_lost || s.near.someone_doubted
+             ? Mode::kSensorOnly
+             : Mode::kCooperative;
 }
 
 Action AvoidingAction(const Situation& s) {
@@ -43,7 +44,7 @@ std::optional<TurnLimit> TurnTooFast(const Steering& steering, const Situation& 
 
 // Drives to the goal no faster than `limit`, slowing so that it can stop there.
 Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
-  const VehicleProfile& profile = s.own.options.profile;
+  const RobotModel& profile = s.own.options.profile;
   Steering steering = SteerToGoal(s);
   Action action;
   double speed = s.own.options.cruise_m_s;
@@ -52,7 +53,7 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
                                               profile.deceleration_m_s2));
   }
   action.decision.rule = Rule::kCruise;
-  if (steering.round != kNobody) {
+  if (steering.round != kNoVehicle) {
     speed = std::min(speed, kRoundSpeed_m_s);
     action.decision.rule = Rule::kSteerRound;
     action.decision.peer = steering.round;
@@ -69,7 +70,7 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
   }
   if (const auto turn = TurnTooFast(steering, s); turn && turn->max_speed_m_s <= speed) {
     speed = turn->max_speed_m_s;
-    action.decision = {.rule = turn->peer == kNobody ? Rule::kObstacle : Rule::kKeepClear,
+    action.decision = {.rule = turn->peer == kNoVehicle ? Rule::kObstacle : Rule::kKeepClear,
                        .peer = turn->peer,
                        .cause_tick = turn->cause_tick};
     // Straight on until it is slow enough for the turn: both rims brake alike.
@@ -85,7 +86,7 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
 
 // A red light ahead is published even if another rule limits the speed now: peers rely on this
 // vehicle staying behind its line. Only rules that stop the vehicle anyway keep their name.
-bool IsToldBeforeLight(Rule rule) {
+bool IsReportedBeforeLight(Rule rule) {
   switch (rule) {
     case Rule::kCruise:
     case Rule::kUnsure:
@@ -102,8 +103,8 @@ bool IsToldBeforeLight(Rule rule) {
 
 // True if the line is near enough to publish, and no conflict with a known peer lies before it.
 bool StandsAtLine(const StopLine& line, const Situation& s) {
-  constexpr double kTellWithin_m = 2.5;
-  return line.free_m < kTellWithin_m &&
+  constexpr double kReportWithin_m = 2.5;
+  return line.free_m < kReportWithin_m &&
          std::none_of(s.near.peers.begin(), s.near.peers.end(), [&line](const PeerView& view) {
            return view.conflict && view.conflict->own.begin_m < line.free_m;
          });
@@ -117,7 +118,7 @@ Action Decide(const Situation& s) {
   Action action = avoids ? AvoidingAction(s) : DrivingAction(s, limit);
   if (s.own.options.behaviour == Behaviour::kLecturePrinted && !limit)
     action = AsPrinted(s, action);
-  if (s.own.stop_line && !IsToldBeforeLight(action.decision.rule) &&
+  if (s.own.stop_line && !IsReportedBeforeLight(action.decision.rule) &&
       StandsAtLine(*s.own.stop_line, s)) {
     action.decision = {.rule = Rule::kSignal, .cause_tick = s.own.stop_line->tick};
   }
@@ -131,7 +132,7 @@ VehicleId GivesWayTo(const Situation& s) {
     if (!view.peer->encounter.active || !view.fresh || !CanGiveWay(view, s.own)) continue;
     if (nearest == nullptr || view.gap_m < nearest->gap_m) nearest = &view;
   }
-  return nearest == nullptr ? kNobody : nearest->peer->id;
+  return nearest == nullptr ? kNoVehicle : nearest->peer->id;
 }
 
 }  // namespace giveway

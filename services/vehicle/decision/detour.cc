@@ -146,14 +146,15 @@ class Search {
 };
 
 bool InSight(Vec2 from, Vec2 to, std::span<const KeepOut> discs) {
-  const Vec2 way = to - from;
-  const double squared = SquaredNorm(way);
+  const Vec2 displacement = to - from;
+  const double squared = SquaredNorm(displacement);
   return std::none_of(discs.begin(), discs.end(), [&](const KeepOut& disc) {
     const Vec2 away = from - disc.centre_world;
-    if (SquaredNorm(away) < disc.radius_m * disc.radius_m) return Dot(away, way) < 0;
+    if (SquaredNorm(away) < disc.radius_m * disc.radius_m) return Dot(away, displacement) < 0;
     const double at =
-        squared > 0 ? std::clamp(Dot(disc.centre_world - from, way) / squared, 0.0, 1.0) : 0;
-    return Norm(from + at * way - disc.centre_world) < kScrape * disc.radius_m;
+        squared > 0 ? std::clamp(Dot(disc.centre_world - from, displacement) / squared, 0.0, 1.0)
+                    : 0;
+    return Norm(from + at * displacement - disc.centre_world) < kScrape * disc.radius_m;
   });
 }
 

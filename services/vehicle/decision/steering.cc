@@ -4,11 +4,11 @@
 #include <array>
 
 #include "services/types/math/math.h"
-#include "services/vehicle/estimation/planted.h"
+#include "services/vehicle/estimation/injected_mutants.h"
 #include "services/vehicle/situation/claim.h"
 #include "services/vehicle/situation/echoes.h"
 #include "services/vehicle/situation/heard_places.h"
-#include "services/vehicle/situation/look.h"
+#include "services/vehicle/situation/peer_relation.h"
 
 namespace giveway {
 namespace {
@@ -17,11 +17,11 @@ namespace {
 // between two bodies no heading would be free otherwise.
 constexpr double kBesideIt_rad = kPi / 2 - 0.03;
 // Obstacles up to this far ahead are steered round.
-constexpr double kLookAhead_m = 3;
+constexpr double kLookahead_m = 3;
 // A heading on the side of the last turn is kept although another is this much nearer.
 constexpr double kKeepSide_rad = 0.6;
 // Past an obstacle, but not back: a vehicle that turns round in a lane meets its followers head-on.
-constexpr double kNoWayBack_rad = 1.8;
+constexpr double kNoReturn_rad = 1.8;
 // With a larger heading error than this it turns on the spot before it drives.
 constexpr double kTurnOnTheSpot_rad = 0.3;
 // A turn by less than this is none.
@@ -52,12 +52,12 @@ bool IsBlockedBy(const Blocked& blocked, double heading_rad) {
 // Stands ahead on the same path and will resume: this vehicle queues behind it. Overtaking a queue
 // ends in front of oncoming traffic.
 bool Queues(const PeerView& view, const Situation& s) {
-  if (Has(Defect::kQueueOvertaken)) return false;
+  if (MutantActive(Mutant::kQueueOvertaken)) return false;
   if (StaysPut(view.peer->beacon.rule)) return false;
-  constexpr double kSameWay = 0.87;  // the cosine of 30 degrees
-  const double way_m = Norm(view.way_world);
-  return way_m > 0.5 && view.fresh &&
-         Dot(view.way_world, s.own.path.direction_world) > kSameWay * way_m;
+  constexpr double kSameDirection = 0.87;  // the cosine of 30 degrees
+  const double path_m = Norm(view.path_world);
+  return path_m > 0.5 && view.fresh &&
+         Dot(view.path_world, s.own.path.direction_world) > kSameDirection * path_m;
 }
 
 // Stands only because of a third vehicle, and resumes with it.
@@ -67,30 +67,30 @@ bool IsHeldUp(const PeerView& view) {
 
 // True for a peer to steer round: one that stands. A peer that has priority and could start at any
 // time is handled by right of way as long as its beacon says that it will resume.
-bool StandsInTheWay(const PeerView& view, const Situation& s) {
+bool StandsInPath(const PeerView& view, const Situation& s) {
   if (s.own.options.behaviour != Behaviour::kCooperative) {
-    return view.fresh && view.standing && view.grants && !view.goes_first;
+    return view.fresh && view.standing && view.grants && !view.has_priority;
   }
-  if (!view.standing || view.peer->left || Has(Defect::kSteersRoundNobody)) return false;
-  if (IsHeldUp(view) && !s.escape.aimless) return false;
-  return !Queues(view, s) || (s.escape.very_aimless && !view.at_signal);
+  if (!view.standing || view.peer->left || MutantActive(Mutant::kSteersRoundNobody)) return false;
+  if (IsHeldUp(view) && !s.escape.no_progress) return false;
+  return !Queues(view, s) || (s.escape.long_no_progress && !view.at_signal);
 }
 
-// Headings past which nothing gets within `way_m`.
-BlockedHeadings WhatBlocks(const Situation& s, double way_m) {
+// Headings past which nothing gets within `path_m`.
+BlockedHeadings WhatBlocks(const Situation& s, double path_m) {
   BlockedHeadings headings;
   // A peer standing on the goal itself is waited for: no path round it reaches the goal. Unless
   // this vehicle stands on the peer's goal, and not for ever: three can block each other in a ring.
   const Vec2 target =
       s.own.world_from_body.position_world + s.own.distance_to_goal_m * s.own.path.direction_world;
   for (const PeerView& view : s.near.peers) {
-    if (!StandsInTheWay(view, s) || headings.count == headings.of.size()) continue;
+    if (!StandsInPath(view, s) || headings.count == headings.of.size()) continue;
     const bool waited_for =
-        !s.escape.aimless && Occupies(view, target, s.own) && !IsOnGoalOf(view, s.own);
+        !s.escape.no_progress && Occupies(view, target, s.own) && !IsOnGoalOf(view, s.own);
     if (waited_for) continue;
     const double distance_m = view.distance_m;
     const double clearance_m = RoomBeside(view, s.own);
-    if (distance_m - clearance_m > way_m) continue;
+    if (distance_m - clearance_m > path_m) continue;
     const double half_rad =
         distance_m > clearance_m
             ? Atan2(clearance_m, Sqrt(distance_m * distance_m - clearance_m * clearance_m))
@@ -108,7 +108,7 @@ void AddEchoes(const Situation& s, BlockedHeadings* headings) {
   constexpr double kHalf_rad = 0.6;
   constexpr double kTurnAway_rad = 0.15;  // at a time, from what stops the vehicle as it stands
   constexpr double kCreeps_m = 0.05;      // so near to where it would stop it comes no further
-  const VehicleProfile& profile = s.own.options.profile;
+  const RobotModel& profile = s.own.options.profile;
   for (const std::size_t i : BitsOf(s.own.ranges.Echoes() & ~s.near.explained)) {
     const SensorView& view = s.own.ranges[i];
     if (view.range_m > kNear_m || headings->count == headings->of.size()) continue;
@@ -120,7 +120,7 @@ void AddEchoes(const Situation& s, BlockedHeadings* headings) {
     headings->of[headings->count++] = {
         WrapAngle(s.own.world_from_body.heading_rad + bearing_rad),
         std::max(kHalf_rad, stops ? Magnitude(bearing_rad) + kTurnAway_rad : 0), view.range_m,
-        kNobody};
+        kNoVehicle};
   }
 }
 
@@ -150,7 +150,7 @@ void AddPlaces(const Situation& s, BlockedHeadings* headings) {
     headings->echoes = true;
     headings->of[headings->count++] = {
         WrapAngle(s.own.world_from_body.heading_rad + Atan2(place->y, place->x)), half_rad,
-        distance_m, kNobody};
+        distance_m, kNoVehicle};
   }
 }
 
@@ -161,16 +161,16 @@ const Blocked* BlockedAt(const BlockedHeadings& headings, double heading_rad,
   for (std::size_t i = 0; i < headings.count; ++i) {
     const Blocked& blocked = headings.of[i];
     if (!IsBlockedBy(blocked, heading_rad)) continue;
-    if (vehicles_alone && blocked.peer == kNobody) continue;
+    if (vehicles_alone && blocked.peer == kNoVehicle) continue;
     if (nearest == nullptr || blocked.distance_m < nearest->distance_m) nearest = &blocked;
   }
   return nearest;
 }
 
 // The nearest vehicle on the straight path to the goal.
-VehicleId OnStraightWay(const BlockedHeadings& headings, const Situation& s) {
+VehicleId OnStraightPath(const BlockedHeadings& headings, const Situation& s) {
   const Blocked* vehicle = BlockedAt(headings, s.own.path_rad, true);
-  return vehicle == nullptr ? kNobody : vehicle->peer;
+  return vehicle == nullptr ? kNoVehicle : vehicle->peer;
 }
 
 // The wanted heading if it is free, or the nearest that is, along an edge of something; the side of
@@ -182,13 +182,13 @@ std::optional<double> FreeHeading(const BlockedHeadings& headings, double wanted
   double best_cost = 1e9;
   for (std::size_t i = 0; i < headings.count; ++i) {
     const Blocked& blocked = headings.of[i];
-    if (vehicles_alone && blocked.peer == kNobody) continue;
+    if (vehicles_alone && blocked.peer == kNoVehicle) continue;
     for (const int end : {1, -1}) {
       const double edge = blocked.middle_rad + end * blocked.half_rad;
       if (BlockedAt(headings, edge, vehicles_alone) != nullptr) continue;
       if (BlockedAt(headings, edge + end * kNarrow_rad, vehicles_alone) != nullptr) continue;
       const double turn = WrapAngle(edge - wanted_rad);
-      if (Magnitude(turn) > kNoWayBack_rad) continue;
+      if (Magnitude(turn) > kNoReturn_rad) continue;
       // Passing on the right, with the obstacle to the left, where both sides are alike.
       const bool other_side = side == 0 ? turn > 0 : turn * side < 0;
       const double cost = Magnitude(turn) + (other_side ? (side == 0 ? 0.05 : kKeepSide_rad) : 0);
@@ -203,12 +203,13 @@ std::optional<double> FreeHeading(const BlockedHeadings& headings, double wanted
 // For a stuck vehicle: a heading along which no claim is near; empty if none of those tried is.
 // Each is turned by the golden angle from the one before, so that a few attempts cover the full
 // circle, however narrow the exit, and none is tried twice.
-std::optional<double> WayOut(double wanted_rad, const Situation& s) {
+std::optional<double> EscapeHeading(double wanted_rad, const Situation& s) {
   constexpr double kGoldenAngle_rad = 2.399963229728653;
   constexpr int kHeadings = 24;
   constexpr double kOut_m = 0.1;
   for (int i = 0; i < kHeadings; ++i) {
-    const double heading_rad = WrapAngle(wanted_rad + (s.escape.tries + i) * kGoldenAngle_rad);
+    const double heading_rad =
+        WrapAngle(wanted_rad + (s.escape.escape_attempts + i) * kGoldenAngle_rad);
     const Vec2 forward_world = {Cos(heading_rad), Sin(heading_rad)};
     const bool leads_out = std::ranges::all_of(s.near.peers, [&](const PeerView& view) {
       return FreeAlong(view, forward_world, s.own) >= kOut_m;
@@ -273,20 +274,21 @@ double Activation(const BraitenbergWeights& weights, const SensorView& view) {
 Steering SteerToGoal(const Situation& s) {
   Steering steering;
   double wanted = s.own.path_rad;
-  double way_m = std::min(s.own.distance_to_goal_m, kLookAhead_m);
+  double path_m = std::min(s.own.distance_to_goal_m, kLookahead_m);
   if (s.escape.detour_world) {
-    const Vec2 way = *s.escape.detour_world - s.own.world_from_body.position_world;
-    wanted = Atan2(way.y, way.x);
-    way_m = Norm(way);
+    const Vec2 displacement = *s.escape.detour_world - s.own.world_from_body.position_world;
+    wanted = Atan2(displacement.y, displacement.x);
+    path_m = Norm(displacement);
   }
   double heading = wanted;
-  BlockedHeadings headings = WhatBlocks(s, way_m);
-  if (s.escape.aimless) {
+  BlockedHeadings headings = WhatBlocks(s, path_m);
+  if (s.escape.no_progress) {
     AddEchoes(s, &headings);
     AddPlaces(s, &headings);
-    steering.blocked_by = OnStraightWay(headings, s);
+    steering.blocked_by = OnStraightPath(headings, s);
   }
-  if (s.escape.tries >= 0 && !s.escape.away_rad) steering.away_rad = WayOut(wanted, s);
+  if (s.escape.escape_attempts >= 0 && !s.escape.away_rad)
+    steering.away_rad = EscapeHeading(wanted, s);
   if (const auto kept = steering.away_rad ? steering.away_rad : KeptHeading(headings, s)) {
     steering.side = s.own.steer_side;
     steering.heading_error_rad = WrapAngle(*kept - s.own.world_from_body.heading_rad);
@@ -325,7 +327,7 @@ namespace {
 
 // Both rims speed up no faster than the drive allows. Turning comes first: asked for all of both, a
 // vehicle that speeds up keeps the turn it has, and sways from side to side.
-double SpeedBesideTurn(const VehicleProfile& profile, const Twist& now, double turn_rad_s,
+double SpeedBesideTurn(const RobotModel& profile, const Twist& now, double turn_rad_s,
                        double speed_m_s) {
   constexpr double kAhead_s = 0.25;
   constexpr double kNoTurn_m_s = 0.005;
@@ -338,7 +340,7 @@ double SpeedBesideTurn(const VehicleProfile& profile, const Twist& now, double t
 // When a vehicle drives off while it turns on the spot, the rim that rolls back has to brake first,
 // which may take long. The other rim would outrun it, and the vehicle would turn faster than peers
 // assume.
-double SpeedWithinTurn(const VehicleProfile& profile, const Twist& now, double turn_rad_s,
+double SpeedWithinTurn(const RobotModel& profile, const Twist& now, double turn_rad_s,
                        double most_rad_s) {
   const double axle_m = profile.drive.axle_m;
   const double turn_now_rad_s = turn_rad_s < 0 ? -now.turn_rad_s : now.turn_rad_s;
@@ -348,7 +350,7 @@ double SpeedWithinTurn(const VehicleProfile& profile, const Twist& now, double t
 }
 
 // Half of what the body can do, and never more than the others count on.
-double MostTurnOf(const VehicleProfile& profile) {
+double MostTurnOf(const RobotModel& profile) {
   return std::min(profile.max_turn_rad_s / 2, kTurnWhileDriving_rad_s);
 }
 
@@ -370,7 +372,7 @@ std::optional<double> PlaceLimitOfTurn(double turned_rad, const Situation& s) {
 
 std::optional<TurnLimit> LimitOfTurn(const Steering& steering, const Situation& s) {
   if (s.own.speed_m_s < kStandingSpeed_m_s) return std::nullopt;
-  const VehicleProfile& profile = s.own.options.profile;
+  const RobotModel& profile = s.own.options.profile;
   const double stops_s = s.own.reaction_s + Seconds(s.own.options.tick_period) +
                          s.own.speed_m_s / profile.deceleration_m_s2;
   const double most_rad = MostTurnOf(profile) * stops_s;
@@ -410,8 +412,7 @@ double Towards(double from, double to, double most) {
 }
 
 // A rim one tick on: towards standstill it brakes, away from it it speeds up.
-double RimAfterTick(const VehicleProfile& profile, double now_m_s, double target_m_s,
-                    double tick_s) {
+double RimAfterTick(const RobotModel& profile, double now_m_s, double target_m_s, double tick_s) {
   const double slower_m_s = profile.deceleration_m_s2 * tick_s;
   const bool reverses = now_m_s * target_m_s < 0;
   if (reverses || Magnitude(target_m_s) < Magnitude(now_m_s)) {
@@ -424,7 +425,7 @@ double RimAfterTick(const VehicleProfile& profile, double now_m_s, double target
 // the vehicle faster than `limit_m_s`, nor keep it from braking to that as fast as it can. To come
 // out of a turn the slower rim may keep its speed until the other is no faster. A vehicle that
 // brakes at least as hard as it speeds up slows down in any turn.
-Rims WithinLimit(const VehicleProfile& profile, const Rims& now, Rims target, double limit_m_s,
+Rims WithinLimit(const RobotModel& profile, const Rims& now, Rims target, double limit_m_s,
                  double tick_s) {
   constexpr double kRounding_m_s = 1e-9;
   if (profile.acceleration_m_s2 <= profile.deceleration_m_s2) return target;
@@ -445,7 +446,7 @@ Rims WithinLimit(const VehicleProfile& profile, const Rims& now, Rims target, do
 
 }  // namespace
 
-WheelSpeeds Drive(const VehicleProfile& profile, const Twist& now, const Steering& steering,
+WheelSpeeds Drive(const RobotModel& profile, const Twist& now, const Steering& steering,
                   const Pace& pace) {
   if (pace.limit_m_s <= 0 && !pace.may_turn) return {};
   constexpr double kGain_per_s = 2.0;

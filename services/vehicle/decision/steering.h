@@ -7,11 +7,11 @@
 namespace giveway {
 
 struct Steering {
-  double heading_error_rad = 0;    // wanted minus present heading, in (-pi, pi]
-  VehicleId round = kNobody;       // the halted peer that is being passed
-  VehicleId blocked_by = kNobody;  // without progress: the nearest on the straight path
-  int side = 0;                    // turned away from the wanted heading: 1 left, -1 right
-  std::optional<double> away_rad;  // the heading it keeps to from now on, if chosen just now
+  double heading_error_rad = 0;       // wanted minus present heading, in (-pi, pi]
+  VehicleId round = kNoVehicle;       // the halted peer that is being passed
+  VehicleId blocked_by = kNoVehicle;  // without progress: the nearest on the straight path
+  int side = 0;                       // turned away from the wanted heading: 1 left, -1 right
+  std::optional<double> away_rad;     // the heading it keeps to from now on, if chosen just now
 };
 
 // Steers to the goal; where a standing peer that gives way blocks the straight path, along the
@@ -23,7 +23,7 @@ Steering SteerToGoal(const Situation& s);
 // is checked against the claims before it is made, as a speed is.
 struct TurnLimit {
   double max_speed_m_s = 0;
-  VehicleId peer = kNobody;  // whose claim the turn leads to; kNobody: to a heard place
+  VehicleId peer = kNoVehicle;  // whose claim the turn leads to; kNoVehicle: to a heard place
   Tick cause_tick = kNoTick;
 };
 std::optional<TurnLimit> LimitOfTurn(const Steering& steering, const Situation& s);
@@ -46,7 +46,7 @@ struct Pace {
 // spot before it drives where the error is large. A turn makes no vehicle faster than its pace, of
 // one that speeds up faster than it brakes either: that brakes first. One that may not turn stands
 // dead still when its limit is 0.
-WheelSpeeds Drive(const VehicleProfile& profile, const Twist& now, const Steering& steering,
+WheelSpeeds Drive(const RobotModel& profile, const Twist& now, const Steering& steering,
                   const Pace& pace);
 
 }  // namespace giveway

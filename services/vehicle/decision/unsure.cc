@@ -1,6 +1,6 @@
 // What a vehicle's own doubt about where it is asks for. Others keep two standard deviations from
 // where it says it is: beyond its limit it promises no place any more, stands, and says so.
-#include "services/vehicle/decision/rules.h"
+#include "services/vehicle/decision/decision_rules.h"
 
 namespace giveway {
 

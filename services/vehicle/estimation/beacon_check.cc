@@ -135,7 +135,7 @@ std::optional<FieldFault> FaultOf(const Beacon& b) {
   const auto fault = [](const char* field, std::uint32_t value, double least, double most) {
     return FieldFault{field, static_cast<double>(value), least, most};
   };
-  if (b.vehicle == kNobody) return fault("vehicle", 0, 1, kMostWhole);
+  if (b.vehicle == kNoVehicle) return fault("vehicle", 0, 1, kMostWhole);
   if (b.boot_epoch == 0) return fault("boot_epoch", 0, 1, kMostWhole);
   if (b.seq == 0) return fault("seq", 0, 1, kMostWhole);
   if (const auto number = NumberFault(b)) return number;
@@ -143,7 +143,7 @@ std::optional<FieldFault> FaultOf(const Beacon& b) {
   const auto rule = static_cast<std::uint32_t>(b.rule);
   if (b.mode > Mode::kLeaving) return fault("mode", mode, 0, double(Mode::kLeaving));
   if (b.rule > kLastRule) return fault("rule", rule, 0, double(kLastRule));
-  const OrderKey& order = b.order;
+  const PriorityKey& order = b.order;
   if (order.waited_ticks > Number(b.tick)) {
     return fault("order_waited_ticks", order.waited_ticks, 0, Number(b.tick));
   }
@@ -154,7 +154,7 @@ std::optional<FieldFault> FaultOf(const Beacon& b) {
   if (order.speed_bucket < least || order.speed_bucket > most) {
     return fault("order_speed_bucket", order.speed_bucket, least, most);
   }
-  if (order.vehicle == kNobody) return fault("order_vehicle", 0, 1, kMostWhole);
+  if (order.vehicle == kNoVehicle) return fault("order_vehicle", 0, 1, kMostWhole);
   return std::nullopt;
 }
 

@@ -19,7 +19,7 @@ Cone ConeOf(double bearing_rad, double half_angle_rad) {
 
 }  // namespace
 
-Cones ConesOf(const VehicleProfile& profile) {
+Cones ConesOf(const RobotModel& profile) {
   Cones cones{};
   cones.half_sine = Sin(std::min(profile.sonar_half_angle_rad, kPi / 2));
   for (std::size_t i = 0; i < kSensorCount; ++i) {

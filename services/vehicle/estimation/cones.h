@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "services/types/profile.h"
+#include "services/types/robot_model.h"
 
 namespace giveway {
 
@@ -22,6 +22,6 @@ struct Cones {
   std::uint32_t enabled;  // bit i for sensor i
 };
 
-Cones ConesOf(const VehicleProfile& profile);
+Cones ConesOf(const RobotModel& profile);
 
 }  // namespace giveway

@@ -12,8 +12,8 @@ namespace giveway {
 
 // The script's one variable for "the near robot".
 struct LastHeard {
-  VehicleId vehicle = kNobody;  // kNobody until a beacon was received
-  WheelSpeeds wheels;           // never expires; 0 until a beacon was received
+  VehicleId vehicle = kNoVehicle;  // kNoVehicle until a beacon was received
+  WheelSpeeds wheels;              // never expires; 0 until a beacon was received
   SteadyTime received{0};
 };
 

@@ -11,9 +11,9 @@ constexpr double kUnseenTurns = 0.02;
 
 }  // namespace
 
-WayGone WayOfLostTicks(const WheelAngles& before, const RangeScan& scan,
-                       const VehicleOptions& options, double dt_s) {
-  const VehicleProfile& profile = options.profile;
+LostTicksMotion MotionOfLostTicks(const WheelAngles& before, const RangeScan& scan,
+                                  const VehicleOptions& options, double dt_s) {
+  const RobotModel& profile = options.profile;
   const WheelSpeeds mean = {(scan.counted.left_rad - before.left_rad) / dt_s,
                             (scan.counted.right_rad - before.right_rad) / dt_s};
   const Twist twist = TwistFromWheels(profile.drive, mean);
@@ -21,8 +21,8 @@ WayGone WayOfLostTicks(const WheelAngles& before, const RangeScan& scan,
     return {scan.wheels, profile.acceleration_m_s2 * dt_s * dt_s};
   }
   // The order of turning and driving moves the end sideways by up to half of the angle's arc.
-  const double way_m = Magnitude(twist.forward_m_s) * dt_s;
-  return {mean, way_m * (Magnitude(twist.turn_rad_s) * dt_s / 2 + kUnseenTurns)};
+  const double path_m = Magnitude(twist.forward_m_s) * dt_s;
+  return {mean, path_m * (Magnitude(twist.turn_rad_s) * dt_s / 2 + kUnseenTurns)};
 }
 
 }  // namespace giveway

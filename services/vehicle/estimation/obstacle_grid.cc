@@ -137,7 +137,7 @@ void ObstacleGrid::Lose(std::uint8_t confidence, std::uint8_t below) {
 
 void ObstacleGrid::Move(Vec2 moved_body, double turned_rad, double unsure_m2) {
   if (!active_) return;
-  const Vec2 moved = Turned(moved_body);
+  const Vec2 moved = Rotated(moved_body);
   const double heading_rad = WrapAngle(heading_.heading_rad + turned_rad);
   const bool far = Magnitude(moved.x) >= kWide_m / 2 || Magnitude(moved.y) >= kWide_m / 2;
   if (far || !(Magnitude(heading_rad) <= kPi)) {  // of no use to what it knew
@@ -195,9 +195,9 @@ void ObstacleGrid::StandsOn(double radius_m) {
 
 void ObstacleGrid::Hear(const HeardCone& heard, std::span<const KnownBody> known) {
   active_ = true;
-  const Vec2 place = at_grid_ + Turned(heard.apex_body);
+  const Vec2 place = at_grid_ + Rotated(heard.apex_body);
   const Vec2 apex = {Wrapped(place.x), Wrapped(place.y)};
-  const Vec2 axis = Turned(heard.axis_body);
+  const Vec2 axis = Rotated(heard.axis_body);
   Clear(heard, apex, axis);
   if (heard.echo && heard.enters && heard.range_m <= kEnters_m) Gain(heard, apex, axis, known);
 }
@@ -256,7 +256,7 @@ void ObstacleGrid::Gain(const HeardCone& heard, Vec2 apex, Vec2 axis,
 }
 
 std::uint8_t ObstacleGrid::At(Vec2 point_body) const {
-  const Vec2 offset = Turned(point_body);
+  const Vec2 offset = Rotated(point_body);
   constexpr double kReach_m = kWide_m / 2 - kCell_m;
   if (Magnitude(offset.x) > kReach_m || Magnitude(offset.y) > kReach_m) return 0;
   const Vec2 at = at_grid_ + offset;

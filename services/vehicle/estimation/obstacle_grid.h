@@ -13,7 +13,7 @@
 
 #include "services/types/ids.h"
 #include "services/types/math/pose.h"
-#include "services/types/profile.h"
+#include "services/types/robot_model.h"
 #include "services/types/state_hash.h"
 
 namespace giveway {
@@ -83,7 +83,7 @@ class ObstacleGrid {
 
   // From a point of the grid to the middle of a cell, the shorter distance round the torus.
   static Vec2 OffsetOf(std::uint32_t column, std::uint32_t row, Vec2 from_grid);
-  Vec2 Turned(Vec2 body) const {
+  Vec2 Rotated(Vec2 body) const {
     return body.x * heading_.forward_world + body.y * Left(heading_.forward_world);
   }
   void Put(std::uint32_t column, std::uint32_t row, std::uint8_t confidence);
@@ -97,7 +97,7 @@ class ObstacleGrid {
   std::array<std::uint8_t, std::size_t{kSide} * kSide> cells_{};
   std::array<std::uint64_t, kSide> some_{};  // by row: bit x where cell x is not 0
   Vec2 at_grid_{kWide_m / 2, kWide_m / 2};   // both in [0, kWide_m)
-  KnownHeading heading_;                     // in the grid
+  CachedHeading heading_;                    // in the grid
   double unsure_m2_ = 0;                     // gained since the cells last lost by it
   double faded_s_ = 0;                       // passed since they last faded
   std::array<Tick, kSensorCount> fired_{};

@@ -25,14 +25,14 @@ PoseCovariance Odometry::Roll(const DriveGeometry& drive, WheelSpeeds wheels, do
   const Vec2 forward = heading_.forward_world;
   pose_ = AdvanceArc(pose_, forward, TwistFromWheels(drive, wheels), dt_s);
   heading_.Follow(pose_);
-  const Vec2 way = pose_.position_world - before;
+  const Vec2 displacement = pose_.position_world - before;
 
   // How the end pose depends on the start pose: F C F' with F = [1 0 -way.y; 0 1 way.x; 0 0 1].
   MapOf3 covariance(covariance_.data());
-  covariance.row(0) += -way.y * covariance.row(2);
-  covariance.row(1) += way.x * covariance.row(2);
-  covariance.col(0) += -way.y * covariance.col(2);
-  covariance.col(1) += way.x * covariance.col(2);
+  covariance.row(0) += -displacement.y * covariance.row(2);
+  covariance.row(1) += displacement.x * covariance.row(2);
+  covariance.col(0) += -displacement.y * covariance.col(2);
+  covariance.col(1) += displacement.x * covariance.col(2);
   // And on the displacement of each wheel.
   const double left = wheel_error * wheels.left_rad_s * drive.wheel_radius_m * dt_s;
   const double right = wheel_error * wheels.right_rad_s * drive.wheel_radius_m * dt_s;

@@ -32,7 +32,7 @@ class Odometry {
  private:
   friend struct StateFields;  // services/snapshot
   Pose pose_;
-  KnownHeading heading_;
+  CachedHeading heading_;
   std::array<double, 9> covariance_{};  // of x, y, heading; row by row
 };
 

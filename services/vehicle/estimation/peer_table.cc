@@ -5,7 +5,7 @@
 
 #include "services/types/math/math.h"
 #include "services/vehicle/estimation/beacon_check.h"
-#include "services/vehicle/estimation/planted.h"
+#include "services/vehicle/estimation/injected_mutants.h"
 
 namespace giveway {
 
@@ -98,7 +98,7 @@ BeaconRefusal PeerTable::Take(const ReceivedBeacon& received, const Self& self,
     last_rejected_ = beacon.vehicle;
     return why;
   };
-  const bool own = beacon.vehicle == self.id && !Has(Defect::kOwnBeaconHeard);
+  const bool own = beacon.vehicle == self.id && !MutantActive(Mutant::kOwnBeaconHeard);
   if (own) return refuse(&BeaconCounters::rejected_own, BeaconRefusal::kOwn);
   if (!received.name_valid)
     return refuse(&BeaconCounters::rejected_wrong_name, BeaconRefusal::kWrongName);
@@ -216,7 +216,7 @@ Nanoseconds Age(const Peer& peer, SteadyTime now, Tick tick, Nanoseconds tick_pe
 }
 
 bool IsFresh(const Peer& peer, SteadyTime now, Tick tick, const VehicleOptions& options) {
-  if (Has(Defect::kStaleBeaconTrusted)) return peer.known && !peer.left;
+  if (MutantActive(Mutant::kStaleBeaconTrusted)) return peer.known && !peer.left;
   const bool doubtful = peer.left || peer.rivalled || peer.deadline_missed ||
                         peer.liveliness_lost || peer.out_of_reach;
   return peer.known && !doubtful &&
@@ -226,7 +226,7 @@ bool IsFresh(const Peer& peer, SteadyTime now, Tick tick, const VehicleOptions& 
 bool IsGone(const Peer& peer) { return peer.left || peer.out_of_reach; }
 
 bool IsLost(const Peer& peer, bool fresh) {
-  if (Has(Defect::kLostPeerForgotten)) return false;
+  if (MutantActive(Mutant::kLostPeerForgotten)) return false;
   return peer.known && !fresh && !IsGone(peer);
 }
 

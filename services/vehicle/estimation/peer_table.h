@@ -33,7 +33,7 @@ struct Encounter {
 
 // What every step looks at comes first, what waits last: few cache lines a peer are ever touched.
 struct Peer {
-  VehicleId id = kNobody;
+  VehicleId id = kNoVehicle;
   std::uint32_t boot_epoch = 0;
   std::uint64_t writer = 0;  // the endpoint that speaks for this id
   std::uint32_t last_seq = 0;
@@ -50,7 +50,7 @@ struct Peer {
   bool out_of_reach = false;     // `beacon` was followed by one from beyond the emission radius
   Encounter encounter;
   PeerTrust trust;
-  KnownHeading told;                // of a recent beacon
+  CachedHeading stated_heading;     // of a recent beacon
   Beacon beacon;                    // newest of a tick before this vehicle's
   std::array<Beacon, 2> waiting{};  // of this tick or later, older first
   std::array<SteadyTime, 2> waiting_received{};
@@ -72,7 +72,7 @@ enum class BeaconRefusal : std::uint8_t {
 
 // What the table needs to know of its owner.
 struct Self {
-  VehicleId id = kNobody;
+  VehicleId id = kNoVehicle;
   WorldEpoch epoch = kNoEpoch;
   Tick tick = kNoTick;
   Vec2 position_world;
@@ -112,9 +112,9 @@ class PeerTable {
   std::vector<Peer>::iterator PlaceOf(VehicleId id);
 
   std::vector<Peer> peers_;  // sorted by id
-  VehicleId last_deadline_missed_ = kNobody;
-  VehicleId last_liveliness_lost_ = kNobody;
-  VehicleId last_rejected_ = kNobody;
+  VehicleId last_deadline_missed_ = kNoVehicle;
+  VehicleId last_liveliness_lost_ = kNoVehicle;
+  VehicleId last_rejected_ = kNoVehicle;
 };
 
 // The lease after which another writer may speak for a silent one's id.

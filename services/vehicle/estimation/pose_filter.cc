@@ -55,21 +55,22 @@ void PoseFilter::Doubt(Vec2 off_world, double heading_rad) {
 
 // F C F' of the pose alone is done. In addition, with G the derivative of the step by the errors:
 // F C_pk becomes F C_pk + G C_kk, and C_pp gains F C_pk G' + G C_kp F' + G C_kk G'.
-void PoseFilter::Carry(Vec2 way_world, Vec2 forward_world, double left_m, double right_m,
+void PoseFilter::Carry(Vec2 displacement_world, Vec2 forward_world, double left_m, double right_m,
                        double axle_m) {
   const double turned_rad = (right_m - left_m) / axle_m;
   const double ahead_m = (right_m - left_m) / 4;  // by an error of the diameter
   const std::array<double, 2> turns = {(right_m + left_m) / (2 * axle_m), -turned_rad};
   // Half of the turn is applied before the displacement.
-  const double g[kPose][2] = {
-      {ahead_m * forward_world.x - way_world.y * turns[0] / 2, -way_world.y * turns[1] / 2},
-      {ahead_m * forward_world.y + way_world.x * turns[0] / 2, way_world.x * turns[1] / 2},
-      {turns[0], turns[1]}};
+  const double g[kPose][2] = {{ahead_m * forward_world.x - displacement_world.y * turns[0] / 2,
+                               -displacement_world.y * turns[1] / 2},
+                              {ahead_m * forward_world.y + displacement_world.x * turns[0] / 2,
+                               displacement_world.x * turns[1] / 2},
+                              {turns[0], turns[1]}};
   double carried[kPose][2];  // F C_pk
   for (std::size_t i = 0; i < 2; ++i) {
     const double heading = At(2, kPose + i);
-    carried[0][i] = At(0, kPose + i) - way_world.y * heading;
-    carried[1][i] = At(1, kPose + i) + way_world.x * heading;
+    carried[0][i] = At(0, kPose + i) - displacement_world.y * heading;
+    carried[1][i] = At(1, kPose + i) + displacement_world.x * heading;
     carried[2][i] = heading;
   }
   for (std::size_t row = 0; row < kPose; ++row) {

@@ -33,13 +33,14 @@ class PoseFilter {
   void Measure(PoseNumber number, double off, double variance);
   // The position may be off by that, too; and the heading by so much.
   void Doubt(Vec2 off_world, double heading_rad);
-  // Odometry has moved the pose by way_world, along heading forward_world; the rims rolled left_m
-  // and right_m. Adds the uncertainty that the wheels' systematic errors bring to that
+  // Odometry has moved the pose by displacement_world, along heading forward_world; the rims rolled
+  // left_m and right_m. Adds the uncertainty that the wheels' systematic errors bring to that
   // displacement.
-  void Carry(Vec2 way_world, Vec2 forward_world, double left_m, double right_m, double axle_m);
+  void Carry(Vec2 displacement_world, Vec2 forward_world, double left_m, double right_m,
+             double axle_m);
 
   Vec2 Moved() const { return {moved_[0], moved_[1]}; }
-  double Turned() const { return moved_[2]; }
+  double Rotated() const { return moved_[2]; }
   Odometry TheOdometry() const;
   Calibration TheCalibration() const;
 

@@ -95,7 +95,7 @@ void Correct(const Innovation& innovation, PoseFilter* filter, Odometry* odometr
   keeping->calibration = filter->TheCalibration();
   for (PastPose& past : keeping->past) {
     past.position_world = past.position_world + filter->Moved();
-    past.heading_rad = WrapAngle(past.heading_rad + filter->Turned());
+    past.heading_rad = WrapAngle(past.heading_rad + filter->Rotated());
   }
 }
 
@@ -113,8 +113,8 @@ void Believe(const Innovation& innovation, Tick tick, bool doubted, Odometry* od
 }
 
 // No wheels, however wrong their encoders, can have brought it there since a fix fitted last.
-bool IsOutOfReach(const Innovation& innovation, const VehicleProfile& profile,
-                  const FixTaker& taker, const Odometry& odometry, const PoseKeeping& keeping) {
+bool IsOutOfReach(const Innovation& innovation, const RobotModel& profile, const FixTaker& taker,
+                  const Odometry& odometry, const PoseKeeping& keeping) {
   constexpr double kSigmasOff = 4;
   const double driven_m =
       profile.max_speed_m_s * TicksBetween(keeping.agreed, taker.tick) * taker.tick_s;
@@ -135,8 +135,8 @@ bool AgreesWith(const Disagreement& disagreement, const Innovation& innovation) 
 
 // One that does not fit may be wrong, or all before it. Which, only further ones can say; until
 // then both may be.
-void Weigh(const PoseFix& fix, const VehicleProfile& profile, const FixTaker& taker,
-           Odometry* odometry, PoseKeeping* keeping) {
+void Weigh(const PoseFix& fix, const RobotModel& profile, const FixTaker& taker, Odometry* odometry,
+           PoseKeeping* keeping) {
   const bool newer = keeping->agreed == kNoTick || fix.tick > keeping->agreed;
   const auto innovation = InnovationOf(fix, *odometry, *keeping);
   if (!IsUsable(fix, taker) || !newer || !innovation) {
@@ -160,18 +160,18 @@ void Weigh(const PoseFix& fix, const VehicleProfile& profile, const FixTaker& ta
 
 }  // namespace
 
-bool KeepsPose(const VehicleProfile& profile) {
+bool KeepsPose(const RobotModel& profile) {
   return profile.pose_fix.Fitted() || profile.wheel_error.Any() || profile.pose_limit_m > 0;
 }
 
 // The magnitude of the wheel errors is known, not their sign: only the squares are used.
-void Begin(const VehicleProfile& profile, PoseKeeping* keeping) {
+void Begin(const RobotModel& profile, PoseKeeping* keeping) {
   *keeping = {.fixes_used = keeping->fixes_used, .fixes_refused = keeping->fixes_refused};
   const WheelErrors& may_be = profile.wheel_error;
   keeping->calibration.own = {may_be.diameter * may_be.diameter, 0, may_be.axle * may_be.axle};
 }
 
-PoseCovariance Roll(const VehicleProfile& profile, const Rolling& rolling, Odometry* odometry,
+PoseCovariance Roll(const RobotModel& profile, const Rolling& rolling, Odometry* odometry,
                     PoseKeeping* keeping) {
   const Calibration& calibration = keeping->calibration;
   const WheelSpeeds wheels = profile.wheel_error.Any()
@@ -199,8 +199,8 @@ PoseCovariance Roll(const VehicleProfile& profile, const Rolling& rolling, Odome
   return added;
 }
 
-void Take(const PoseFix& fix, const VehicleProfile& profile, const FixTaker& taker,
-          Odometry* odometry, PoseKeeping* keeping) {
+void Take(const PoseFix& fix, const RobotModel& profile, const FixTaker& taker, Odometry* odometry,
+          PoseKeeping* keeping) {
   if (!profile.pose_fix.Fitted()) {
     ++keeping->fixes_refused;
   } else if (fix.tick >= taker.tick && IsUsable(fix, taker)) {
@@ -210,7 +210,7 @@ void Take(const PoseFix& fix, const VehicleProfile& profile, const FixTaker& tak
   }
 }
 
-void TakeWaiting(const VehicleProfile& profile, const FixTaker& taker, Odometry* odometry,
+void TakeWaiting(const RobotModel& profile, const FixTaker& taker, Odometry* odometry,
                  PoseKeeping* keeping) {
   if (keeping->waiting.tick == kNoTick || keeping->waiting.tick >= taker.tick) return;
   const PoseFix fix = keeping->waiting;
@@ -229,7 +229,7 @@ PoseCovariance PromisedCovariance(const Odometry& odometry, const PoseKeeping& k
   return promised;
 }
 
-double JudgeCertainty(const VehicleProfile& profile, const PoseCovariance& promised,
+double JudgeCertainty(const RobotModel& profile, const PoseCovariance& promised,
                       PoseKeeping* keeping) {
   if (!(profile.pose_limit_m > 0)) return 1;
   const double share = SigmaPosition(promised) / profile.pose_limit_m;

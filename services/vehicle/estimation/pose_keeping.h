@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "services/types/pose_sensing.h"
-#include "services/types/profile.h"
+#include "services/types/robot_model.h"
 #include "services/types/state_hash.h"
 #include "services/vehicle/estimation/odometry.h"
 #include "services/vehicle/estimation/pose_filter.h"
@@ -43,10 +43,10 @@ struct PoseKeeping {
 };
 
 // True of a vehicle for which all this is done.
-bool KeepsPose(const VehicleProfile& profile);
+bool KeepsPose(const RobotModel& profile);
 
 // On entering a world, where it is given its start pose; counts continue.
-void Begin(const VehicleProfile& profile, PoseKeeping* keeping);
+void Begin(const RobotModel& profile, PoseKeeping* keeping);
 
 // What the wheels did from the last tick to `tick`, dt_s later.
 struct Rolling {
@@ -59,12 +59,12 @@ struct Rolling {
 
 // Rolls odometry on by wheels as they are known to err. Returns what is not known of this step
 // alone, as Odometry::Roll does; systematic errors of wheels are not in it.
-PoseCovariance Roll(const VehicleProfile& profile, const Rolling& rolling, Odometry* odometry,
+PoseCovariance Roll(const RobotModel& profile, const Rolling& rolling, Odometry* odometry,
                     PoseKeeping* keeping);
 
 // The vehicle that takes a fix.
 struct FixTaker {
-  VehicleId vehicle = kNobody;
+  VehicleId vehicle = kNoVehicle;
   WorldEpoch epoch = kNoEpoch;
   Tick tick = kNoTick;  // of the odometry's pose
   double tick_s = 0;
@@ -72,10 +72,10 @@ struct FixTaker {
 
 // A fix is weighed from the tick after its own on, whenever it comes, so that it makes no
 // difference whether it is faster than the scan of its tick. At most kPastPoses - 1 ticks late.
-void Take(const PoseFix& fix, const VehicleProfile& profile, const FixTaker& taker,
-          Odometry* odometry, PoseKeeping* keeping);
+void Take(const PoseFix& fix, const RobotModel& profile, const FixTaker& taker, Odometry* odometry,
+          PoseKeeping* keeping);
 // The fix that waited for its tick to pass, if there is one.
-void TakeWaiting(const VehicleProfile& profile, const FixTaker& taker, Odometry* odometry,
+void TakeWaiting(const RobotModel& profile, const FixTaker& taker, Odometry* odometry,
                  PoseKeeping* keeping);
 
 // What others may rely on: the filter's covariance, and what fixes say that do not fit.
@@ -83,7 +83,7 @@ PoseCovariance PromisedCovariance(const Odometry& odometry, const PoseKeeping& k
 
 // Takes in how unsure the pose is now. Returns the share of its cruise speed that the vehicle may
 // drive: less from well below the limit on, 0 while it is lost.
-double JudgeCertainty(const VehicleProfile& profile, const PoseCovariance& promised,
+double JudgeCertainty(const RobotModel& profile, const PoseCovariance& promised,
                       PoseKeeping* keeping);
 
 void AddTo(const PoseKeeping& keeping, StateHash* hash);

@@ -43,7 +43,7 @@ void Update(SensorView* view, const RangeReading& reading, Nanoseconds tick_peri
 }
 
 void UpdateImperfect(SensorView* view, const RangeReading& reading, Nanoseconds tick_period,
-                     const OwnWay& way) {
+                     const OwnDisplacement& displacement) {
   if (view->kind == Echo::kEcho && reading.kind == Echo::kClear && !view->missed) {
     view->missed = true;
     view->tick = reading.tick;
@@ -55,8 +55,8 @@ void UpdateImperfect(SensorView* view, const RangeReading& reading, Nanoseconds 
   if (both_echo && IsOneObject(closing)) {
     // From 0 on, so that the jitter of the first two readings weighs no more than any other's.
     const double weight = dt_s / (dt_s + kClosingTime_s);
-    const double driven = (way.driven_m - view->echo_way.driven_m) / dt_s;
-    const double turned = (way.turned_rad - view->echo_way.turned_rad) / dt_s;
+    const double driven = (displacement.driven_m - view->echo_displacement.driven_m) / dt_s;
+    const double turned = (displacement.turned_rad - view->echo_displacement.turned_rad) / dt_s;
     view->closing_m_s += weight * (closing - view->closing_m_s);
     view->own.forward_m_s += weight * (driven - view->own.forward_m_s);
     view->own.turn_rad_s += weight * (turned - view->own.turn_rad_s);
@@ -67,7 +67,7 @@ void UpdateImperfect(SensorView* view, const RangeReading& reading, Nanoseconds 
     view->streak = 0;
   }
   Hear(view, reading);
-  view->echo_way = way;
+  view->echo_displacement = displacement;
 }
 
 // The sensor has not fired again.
@@ -109,14 +109,14 @@ void RangeView::Take(const RangeScan& scan, SteadyTime now, Nanoseconds tick_per
 }
 
 void RangeView::TakeImperfect(const RangeScan& scan, SteadyTime now, Nanoseconds tick_period,
-                              OwnWay moved) {
+                              OwnDisplacement moved) {
   taken_ = now;
   any_ = true;
-  way_.driven_m += moved.driven_m;
-  way_.turned_rad += moved.turned_rad;
+  displacement_.driven_m += moved.driven_m;
+  displacement_.turned_rad += moved.turned_rad;
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     if (IsSame(sensors_[i], scan.readings[i])) continue;
-    UpdateImperfect(&sensors_[i], scan.readings[i], tick_period, way_);
+    UpdateImperfect(&sensors_[i], scan.readings[i], tick_period, displacement_);
     Mark(i);
   }
   NoteWhoSpoke(scan.tick);

@@ -12,7 +12,7 @@
 namespace giveway {
 
 // How far a vehicle has come: driven forward, less backward, and turned to either side, in all.
-struct OwnWay {
+struct OwnDisplacement {
   double driven_m = 0;
   double turned_rad = 0;
 };
@@ -29,7 +29,7 @@ struct SensorView {
   // Of imperfect ultrasonics: the own motion (absolute turn rate) over the time closing_m_s is
   // made from, smoothed alike; where the vehicle was when it heard range_m, by the odometer.
   Twist own;
-  OwnWay echo_way;
+  OwnDisplacement echo_displacement;
 };
 
 // Seconds since the transducer fired that heard range_m.
@@ -51,7 +51,8 @@ class RangeView {
   // Ultrasonics that jitter, drop out or fire in turn: an echo is forgotten only after two firings
   // in a row heard nothing, and a closing speed is smoothed over kClosingTime_s. `moved` is the own
   // displacement since the scan before.
-  void TakeImperfect(const RangeScan& scan, SteadyTime now, Nanoseconds tick_period, OwnWay moved);
+  void TakeImperfect(const RangeScan& scan, SteadyTime now, Nanoseconds tick_period,
+                     OwnDisplacement moved);
 
   const SensorView& operator[](std::size_t sensor) const { return sensors_[sensor]; }
   // Which sensors hold an echo: bit i for sensor i.
@@ -78,7 +79,7 @@ class RangeView {
   std::uint32_t echoes_ = 0;
   std::uint32_t spoke_ = 0;  // see SpokeAt; of the scan last taken
   Tick spoke_tick_ = kNoTick;
-  OwnWay way_;
+  OwnDisplacement displacement_;
   SteadyTime taken_{0};
   bool any_ = false;
 };

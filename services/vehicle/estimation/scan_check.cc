@@ -29,7 +29,7 @@ bool IsPlace(Vec2 point_world) {
 struct ReadingLimits {
   Tick scanned;  // one of later would never grow old
   double max_fired_before_s;
-  const VehicleProfile& profile;
+  const RobotModel& profile;
 };
 
 bool IsBelievable(const RangeReading& reading, const ReadingLimits& limits) {
@@ -40,18 +40,18 @@ bool IsBelievable(const RangeReading& reading, const ReadingLimits& limits) {
 
 }  // namespace
 
-bool IsRange(double range_m, const VehicleProfile& profile) {
+bool IsRange(double range_m, const RobotModel& profile) {
   return IsBetween(range_m, 0, profile.sonar_max_range_m + kBeyondRange_m);
 }
 
-bool CanBeDriven(const Twist& twist, const VehicleProfile& profile) {
+bool CanBeDriven(const Twist& twist, const RobotModel& profile) {
   return Within(twist.forward_m_s, kOvershoot * profile.max_speed_m_s) &&
          Within(twist.turn_rad_s, kOvershoot * profile.max_turn_rad_s);
 }
 
 bool IsBelievable(const RangeScan& scan, const VehicleOptions& options) {
   if (scan.epoch == kNoEpoch || scan.tick == kNoTick) return false;
-  const VehicleProfile& profile = options.profile;
+  const RobotModel& profile = options.profile;
   const ReadingLimits limits = {scan.tick, Seconds(options.tick_period), profile};
   return CanBeDriven(TwistFromWheels(profile.drive, scan.wheels), profile) &&
          Within(scan.counted.left_rad, kMostCounted_rad) &&

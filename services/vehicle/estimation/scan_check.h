@@ -10,10 +10,10 @@ namespace giveway {
 
 // True if the drive can have moved so: no faster than it is by more than encoders slip and
 // overshoot.
-bool CanBeDriven(const Twist& twist, const VehicleProfile& profile);
+bool CanBeDriven(const Twist& twist, const RobotModel& profile);
 
 // True if ultrasonics of that profile can say so.
-bool IsRange(double range_m, const VehicleProfile& profile);
+bool IsRange(double range_m, const RobotModel& profile);
 
 // True if every number is finite and can come from this vehicle's wheels and ultrasonics, and no
 // reading is newer than the scan.

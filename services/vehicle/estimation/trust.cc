@@ -20,11 +20,13 @@ double Pace(const Beacon& beacon) {
 bool Jumps(const Beacon& before, const Beacon& now, double dt_s) {
   const double fastest = kSpeedSlack * std::max({Pace(before), Pace(now), now.cruise_m_s});
   const double sure_m = fastest * dt_s + kPoseSlack_m;
-  const Vec2 way = now.world_from_body.position_world - before.world_from_body.position_world;
-  if (SquaredNorm(way) <= sure_m * sure_m) return false;  // nearly all, for none of the roots below
+  const Vec2 displacement =
+      now.world_from_body.position_world - before.world_from_body.position_world;
+  if (SquaredNorm(displacement) <= sure_m * sure_m)
+    return false;  // nearly all, for none of the roots below
   const double most_m =
       sure_m + kErrorSigmas * (SigmaPosition(before.covariance) + SigmaPosition(now.covariance));
-  return SquaredNorm(way) > most_m * most_m;
+  return SquaredNorm(displacement) > most_m * most_m;
 }
 
 // Faster than any vehicle of this fleet, or accelerated more than it says it can.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "services/vehicle/estimation/planted.h"
+#include "services/vehicle/estimation/injected_mutants.h"
 
 namespace giveway {
 namespace {
@@ -24,32 +24,32 @@ VehicleId NearestThatWaits(const Situation& s) {
         view.fresh && view.standing && view.peer->beacon.gives_way_to == s.own.options.id;
     if (waits && (nearest == nullptr || view.gap_m < nearest->gap_m)) nearest = &view;
   }
-  return nearest == nullptr ? kNobody : nearest->peer->id;
+  return nearest == nullptr ? kNoVehicle : nearest->peer->id;
 }
 
-// The vehicle that `vehicle` reports as blocking it; kNobody if that is not among the relevant
+// The vehicle that `vehicle` reports as blocking it; kNoVehicle if that is not among the relevant
 // peers.
 VehicleId WhoBlocks(VehicleId vehicle, std::span<const PeerView> views) {
   for (const PeerView& view : views) {
-    if (view.peer->id == vehicle) return view.fresh ? view.peer->beacon.blocked_by : kNobody;
+    if (view.peer->id == vehicle) return view.fresh ? view.peer->beacon.blocked_by : kNoVehicle;
   }
-  return kNobody;
+  return kNoVehicle;
 }
 
 }  // namespace
 
-OrderKey ActingOrder(const OrderKey& own, const PeerTable& peers, VehicleId own_id) {
-  OrderKey acting = own;
-  if (Has(Defect::kLendingDropped)) return acting;
+PriorityKey ActingOrder(const PriorityKey& own, const PeerTable& peers, VehicleId own_id) {
+  PriorityKey acting = own;
+  if (MutantActive(Mutant::kLendingDropped)) return acting;
   for (const Peer& peer : peers.Peers()) {
     const bool blocked = peer.known && peer.beacon.blocked_by == own_id && !IsGone(peer);
-    if (blocked && GoesFirst(peer.beacon.order, acting)) acting = peer.beacon.order;
+    if (blocked && PrecedesByKey(peer.beacon.order, acting)) acting = peer.beacon.order;
   }
   return acting;
 }
 
 VehicleId BlockedBy(const Situation& s, const Decision& decision, VehicleId not_passed) {
-  if (s.own.arrived || s.own.lost) return kNobody;
+  if (s.own.arrived || s.own.lost) return kNoVehicle;
   for (const PeerView& view : s.near.peers) {
     const bool there = view.fresh && (view.standing || view.gap_m < kOccupiedWithin_m);
     if (there && Occupies(view, Toward(s.own), s.own)) return view.peer->id;
@@ -59,10 +59,10 @@ VehicleId BlockedBy(const Situation& s, const Decision& decision, VehicleId not_
   if (leader != s.near.peers.end()) return leader->peer->id;
   const bool stands = s.own.speed_m_s < kStandingSpeed_m_s;
   if (decision.rule == Rule::kKeepClear && stands) return decision.peer;
-  if (!s.escape.aimless) return kNobody;
+  if (!s.escape.no_progress) return kNoVehicle;
   // A vehicle that finds no path through those waiting for it lets one of them go.
-  const VehicleId waiting = s.escape.very_aimless ? NearestThatWaits(s) : kNobody;
-  return waiting != kNobody ? waiting : not_passed;
+  const VehicleId waiting = s.escape.long_no_progress ? NearestThatWaits(s) : kNoVehicle;
+  return waiting != kNoVehicle ? waiting : not_passed;
 }
 
 bool IsStillNear(VehicleId peer, const Situation& s) {
@@ -73,7 +73,7 @@ bool IsStillNear(VehicleId peer, const Situation& s) {
 
 bool IsBehind(VehicleId blocker, VehicleId vehicle, std::span<const PeerView> views) {
   constexpr int kLongestQueue = 8;  // followed no further: it may close to a ring
-  for (int i = 0; i < kLongestQueue && blocker != kNobody; ++i) {
+  for (int i = 0; i < kLongestQueue && blocker != kNoVehicle; ++i) {
     if (blocker == vehicle) return true;
     blocker = WhoBlocks(blocker, views);
   }

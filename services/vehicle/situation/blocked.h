@@ -10,11 +10,11 @@
 namespace giveway {
 
 // The own key, or that of the first in the order that says it is blocked by this vehicle.
-OrderKey ActingOrder(const OrderKey& own, const PeerTable& peers, VehicleId own_id);
+PriorityKey ActingOrder(const PriorityKey& own, const PeerTable& peers, VehicleId own_id);
 
 // The peer whose body blocks this vehicle: it stands where this vehicle wants to be, leads in its
 // lane more slowly, keeps it from driving by `decision`, or is `not_passed`, which it fails to
-// steer round. kNobody if there is none.
+// steer round. kNoVehicle if there is none.
 VehicleId BlockedBy(const Situation& s, const Decision& decision, VehicleId not_passed);
 
 // True if that peer is fresh and near enough to block this vehicle again at once.

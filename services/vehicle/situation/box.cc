@@ -55,7 +55,7 @@ double BoxBegin(const Crossings& crossings, double point_m) {
   return begin_m;
 }
 
-double AlongOwnWay(const CarriedPeer& view, const OwnView& s) {
+double AlongOwnPath(const CarriedPeer& view, const OwnView& s) {
   return Dot(view.offset_world, s.path.direction_world);
 }
 
@@ -65,7 +65,7 @@ double QueueLength(double along_m, std::span<const PeerView> views, const OwnVie
   constexpr double kMoreThanClear_m = 0.01;
   double length_m = 0;
   for (const PeerView& view : views) {
-    if (!view.leads || AlongOwnWay(view, s) > along_m) continue;
+    if (!view.leads || AlongOwnPath(view, s) > along_m) continue;
     length_m += s.options.profile.body_radius_m + view.peer->beacon.body_radius_m + kClearance_m +
                 kMoreThanClear_m;
   }
@@ -85,11 +85,11 @@ double NextStop(double from_m, const Crossings& crossings) {
 
 // How far along the own path the leader gets before it stops.
 double LeaderStops(const RelatedPeer& leader, const Crossings& crossings, const OwnView& s) {
-  const double along_m = AlongOwnWay(leader, s);
+  const double along_m = AlongOwnPath(leader, s);
   if (leader.standing) return along_m;
   const double stops_m = along_m + StoppingDistanceOf(leader, s);
   const Beacon& beacon = leader.peer->beacon;
-  const bool goes_on = beacon.gives_way_to == kNobody && !IsGiveWay(beacon.rule);
+  const bool goes_on = beacon.gives_way_to == kNoVehicle && !IsGiveWay(beacon.rule);
   return goes_on ? NextStop(stops_m, crossings) : stops_m;
 }
 
@@ -100,7 +100,7 @@ double StopsBehind(const RelatedPeer& view, std::span<const PeerView> views,
                    const Crossings& crossings, const OwnView& s) {
   if (!view.fresh) return kNever_m;
   if (!view.leads) return view.standing ? view.free_m : kNever_m;
-  return LeaderStops(view, crossings, s) - QueueLength(AlongOwnWay(view, s), views, s);
+  return LeaderStops(view, crossings, s) - QueueLength(AlongOwnPath(view, s), views, s);
 }
 
 // Where the box starts that contains a point; huge if none does, or if the vehicle is already

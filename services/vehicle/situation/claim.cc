@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "services/types/math/math.h"
-#include "services/vehicle/estimation/planted.h"
+#include "services/vehicle/estimation/injected_mutants.h"
 
 namespace giveway {
 namespace {
@@ -87,8 +87,9 @@ Claim ClaimOf(const Beacon& beacon, const Course& course, double unknown_s, doub
   Claim claim;
   claim.axis = {beacon.world_from_body.position_world,
                 speed < 0 ? -1.0 * course.forward_world : course.forward_world};
-  claim.length_m =
-      Has(Defect::kClaimWithoutWay) ? 0 : ClaimLength(beacon, pace_m_s, unknown_s, reaction_s);
+  claim.length_m = MutantActive(Mutant::kClaimWithoutWay)
+                       ? 0
+                       : ClaimLength(beacon, pace_m_s, unknown_s, reaction_s);
   claim.radius_m = beacon.body_radius_m;
   // From standstill it may leave in any direction.
   if (Magnitude(speed) < kStands_m_s) {

@@ -77,7 +77,7 @@ bool IsItAlone(const PeerView& view, std::size_t sensor, std::span<const PeerVie
 // True where nothing that stands can seem to come nearer by more than the own speed: the vehicle
 // stands as well, or drives straight on and the cone holds what is straight ahead. Into any other
 // cone the end of a wall may come from the side, and its echo leaps.
-bool TellsMotion(std::size_t sensor, const OwnView& s) {
+bool ShowsMotion(std::size_t sensor, const OwnView& s) {
   if (s.turns || Magnitude(s.turn_rad_s) > kTurning_rad_s) return false;
   if (Magnitude(s.speed_m_s) < kStandingSpeed_m_s) return true;
   return s.speed_m_s > 0 && s.cones.of[sensor].nearest_cosine >= 1;
@@ -92,7 +92,7 @@ bool IsInReach(std::size_t sensor, const OwnView& s) {
 // Whether its echo moves by itself.
 bool ComesNearer(const PeerView& view, std::span<const PeerView> views, const OwnView& s) {
   for (const std::size_t i : BitsOf(view.explains)) {
-    if (!IsInReach(i, s) || !TellsMotion(i, s) || !MovesByItself(i, s)) continue;
+    if (!IsInReach(i, s) || !ShowsMotion(i, s) || !MovesByItself(i, s)) continue;
     if (IsItAlone(view, i, views)) return true;
   }
   return false;
@@ -115,7 +115,7 @@ void JudgeEchoes(std::span<const PeerView> views, bool someone_lost, const OwnVi
   const std::uint32_t closes = TicksOf(kCloses_s + 2 * Seconds(s.options.sonar_refresh), s.options);
   // Ultrasonics that miss obstacles, by their slant or by chance, or take a neighbour's ping for an
   // echo, are no evidence against a peer.
-  const bool believes_ears = !HasImperfectSonar(s.options);
+  const bool believes_sonar = !HasImperfectSonar(s.options);
   const std::uint32_t listening = s.cones.enabled & s.ranges.SpokeAt(s.tick);
   for (const PeerView& view : views) {
     PeerTrust& trust = view.peer->trust;
@@ -125,7 +125,7 @@ void JudgeEchoes(std::span<const PeerView> views, bool someone_lost, const OwnVi
     }
     trust.missing_ticks = IsMissed(view, listening, s) ? trust.missing_ticks + 1 : 0;
     if (trust.missing_ticks == kMissingTicks) ++counters->beacon_without_echo;
-    if (trust.missing_ticks >= kMissingTicks && believes_ears) Doubt(&trust, s.now);
+    if (trust.missing_ticks >= kMissingTicks && believes_sonar) Doubt(&trust, s.now);
 
     trust.standing_ticks = SaysItStands(view) ? trust.standing_ticks + 1 : 0;
     // Not while one that has fallen silent may roll by.
@@ -133,7 +133,7 @@ void JudgeEchoes(std::span<const PeerView> views, bool someone_lost, const OwnVi
         trust.standing_ticks > stands && !someone_lost && ComesNearer(view, views, s);
     trust.closing_ticks = closing ? trust.closing_ticks + 1 : 0;
     if (trust.closing_ticks == closes) ++counters->halted_but_closing;
-    if (trust.closing_ticks >= closes && believes_ears) Doubt(&trust, s.now);
+    if (trust.closing_ticks >= closes && believes_sonar) Doubt(&trust, s.now);
   }
 }
 

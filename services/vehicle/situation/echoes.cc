@@ -160,10 +160,10 @@ std::uint32_t EchoesOf(const CarriedPeer& peer, const OwnView& s) {
 
 std::optional<double> FreeAhead(std::size_t sensor, const Situation& s) {
   const SensorView& view = s.own.ranges[sensor];
-  const VehicleProfile& profile = s.own.options.profile;
+  const RobotModel& profile = s.own.options.profile;
   if (view.kind != Echo::kEcho || profile.sonar[sensor].position_body.x < 0) return std::nullopt;
   const bool explained = (s.near.explained >> sensor & 1U) != 0;
-  // A fresh peer's claim says more than its echo: rules.cc, KeepClear.
+  // A fresh peer's claim says more than its echo: decision_rules.cc, KeepClear.
   if (explained && s.own.options.behaviour == Behaviour::kCooperative) return std::nullopt;
   for (const PeerView& peer : s.near.peers) {
     if (!explained || (peer.explains >> sensor & 1U) == 0) continue;
@@ -181,7 +181,7 @@ bool MovesByItself(std::size_t sensor, const OwnView& s) {
   if (view.kind != Echo::kEcho || view.streak < (slow ? kSlowMotionStreak : kMotionStreak)) {
     return false;
   }
-  const VehicleProfile& profile = s.options.profile;
+  const RobotModel& profile = s.options.profile;
   // The closing speed is of the past, and so is the motion that explains it.
   const double driving = std::max(s.speed_m_s, view.own.forward_m_s);
   const double turning = std::max(Magnitude(s.turn_rad_s), view.own.turn_rad_s);

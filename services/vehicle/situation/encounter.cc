@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "services/vehicle/estimation/planted.h"
+#include "services/vehicle/estimation/injected_mutants.h"
 #include "services/vehicle/situation/blocked.h"
 #include "services/vehicle/situation/timing.h"
 
@@ -14,7 +14,7 @@ constexpr double kLostMargin_s = 1.0;  // on top of the time a silent peer may n
 // This one is steering round the halted vehicle, which would stop it there by setting off.
 bool IsBeingPassed(const PeerView& view, const OwnView& s) {
   if (s.options.behaviour != Behaviour::kCooperative || !view.peer->encounter.holds) return false;
-  return view.fresh && !view.standing && view.goes_first &&
+  return view.fresh && !view.standing && view.has_priority &&
          view.peer->beacon.rule == Rule::kSteerRound &&
          Dot(view.offset_world, s.path.direction_world) > 0;
 }
@@ -61,10 +61,10 @@ void UpdateLost(const PeerView& view, const OwnView& s) {
         (view.conflict ? view.conflict->peer.end_m / cruise : 0) + kLostMargin_s;
   }
   const double nearest = s.ranges.NearestEcho();
-  const bool clear =
-      nearest < 0 || nearest >= s.options.gate_exit_m || Has(Defect::kReleasedWithoutLooking);
+  const bool clear = nearest < 0 || nearest >= s.options.gate_exit_m ||
+                     MutantActive(Mutant::kReleasedWithoutLooking);
   const bool waited = Seconds(s.now - encounter.lost_at) >= encounter.lost_wait_s;
-  if (waited && clear && !Has(Defect::kLostPeerHeldForEver)) encounter.released = true;
+  if (waited && clear && !MutantActive(Mutant::kLostPeerHeldForEver)) encounter.released = true;
 }
 
 // How far it may drive when it holds for the peer: up to the box; up to the conflict itself where
@@ -83,7 +83,7 @@ bool MustBrakeNow(const PeerView& view, const OwnView& s) {
 // Both are in the conflict, and this vehicle is ahead along the paths of both.
 bool IsAhead(const PeerView& view, const OwnView& s) {
   return Dot(view.offset_world, s.path.direction_world) < 0 &&
-         Dot(view.offset_world, view.way_world) < 0;
+         Dot(view.offset_world, view.path_world) < 0;
 }
 
 // A vehicle in the middle of the conflict clears it instead of blocking it: if the other is not in
@@ -97,13 +97,13 @@ bool MustClear(const PeerView& view, const OwnView& s) {
 
 // A vehicle that blocks one with priority, by its body or by standing on its goal, gives way by
 // driving on: also at the far end of a queue in which each blocks the next.
-bool IsInTheWay(const PeerView& view, std::span<const PeerView> views, const OwnView& s) {
+bool IsInPath(const PeerView& view, std::span<const PeerView> views, const OwnView& s) {
   return IsBehind(view.peer->beacon.blocked_by, s.options.id, views) || IsOnGoalOf(view, s);
 }
 
 // The vehicle without priority stops at the gate, or where only braking now is early enough.
 bool SecondMustStop(const PeerView& view, const OwnView& s) {
-  if (Has(Defect::kSecondDrivesOn)) return false;
+  if (MutantActive(Mutant::kSecondDrivesOn)) return false;
   if (s.options.behaviour == Behaviour::kLectureYield) return true;
   if (!view.conflict) return false;
   const double critical_m = CriticalDistance(s, view);
@@ -114,7 +114,7 @@ bool SecondMustStop(const PeerView& view, const OwnView& s) {
 // The vehicle with priority needs the other's grant, or to be through before it; the lecture's
 // behaviour trusts the order alone.
 bool FirstMayGo(const PeerView& view, const OwnView& s) {
-  if (Has(Defect::kGrantNotNeeded)) return true;
+  if (MutantActive(Mutant::kGrantNotNeeded)) return true;
   return s.options.behaviour == Behaviour::kLectureYield || view.grants || IsThroughFirst(view, s);
 }
 
@@ -150,8 +150,8 @@ bool MayCrossBefore(const PeerView& view, const OwnView& s) {
   const Beacon& beacon = view.peer->beacon;
   const VehicleId waits_for = beacon.rule == Rule::kKeepClear ? beacon.blocked_by
                               : IsGiveWay(beacon.rule)        ? beacon.gives_way_to
-                                                              : kNobody;
-  return waits_for != kNobody && waits_for != s.options.id;
+                                                              : kNoVehicle;
+  return waits_for != kNoVehicle && waits_for != s.options.id;
 }
 
 // Whether this vehicle holds for the peer. A hold lasts once it has started: braking shortens the
@@ -161,12 +161,12 @@ bool Holds(const PeerView& view, const OwnView& s) {
   const bool held = view.peer->encounter.holds;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   if (view.lost) {
-    if (view.peer->encounter.released || Has(Defect::kSilenceIsConsent)) return false;
+    if (view.peer->encounter.released || MutantActive(Mutant::kSilenceIsConsent)) return false;
     return held || s.options.behaviour == Behaviour::kLectureYield || MustBrakeNow(view, s);
   }
   if (view.peer->encounter.clears) return false;
   if (view.peer->encounter.entered) return false;
-  if (view.goes_first) {
+  if (view.has_priority) {
     if (cooperative && (IsGoneInTime(view, s) || MayCrossBefore(view, s))) return false;
     return !MustClear(view, s) && (held || SecondMustStop(view, s));
   }
@@ -178,7 +178,8 @@ bool Holds(const PeerView& view, const OwnView& s) {
 
 bool CanGiveWay(const PeerView& view, const OwnView& s) {
   const Encounter& encounter = view.peer->encounter;
-  if (!view.goes_first || encounter.entered || encounter.clears || MustClear(view, s)) return false;
+  if (!view.has_priority || encounter.entered || encounter.clears || MustClear(view, s))
+    return false;
   const bool stands = s.speed_m_s < kStandingSpeed_m_s;
   return stands || !view.conflict || view.conflict->own.begin_m > OwnStoppingDistance(s) - 0.1;
 }
@@ -203,8 +204,8 @@ void BeginOrEnd(const PeerView& view, std::span<const PeerView> views, const Own
     }
   }
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
-  if (cooperative && encounter.active && !view.lost && view.goes_first &&
-      IsInTheWay(view, views, s)) {
+  if (cooperative && encounter.active && !view.lost && view.has_priority &&
+      IsInPath(view, views, s)) {
     encounter.clears = true;
   }
   if (!encounter.active || HasLeftBox(view, s)) encounter.entered = false;
@@ -219,7 +220,7 @@ Encounters UpdateEncounters(std::span<const PeerView> views, const OwnView& s) {
     Encounter& encounter = view.peer->encounter;
     const bool met = encounter.active;
     BeginOrEnd(view, views, s);
-    all.let_pass = all.let_pass || (met && !encounter.active && view.goes_first);
+    all.let_pass = all.let_pass || (met && !encounter.active && view.has_priority);
     encounter.holds = encounter.active && Holds(view, s);
     all.holds = all.holds || encounter.holds;
     all.meets = all.meets || encounter.active;

@@ -19,7 +19,7 @@ constexpr double kNarrower_m = 0.03;
 // The middle of the body itself is surely not the place of anything else.
 constexpr double kShare = 0.8;
 
-double InnerRadius(const VehicleProfile& profile) {
+double InnerRadius(const RobotModel& profile) {
   if (profile.shape == BodyShape::kDisc) return profile.body_radius_m;
   return std::min(profile.box_half_m.x, profile.box_half_m.y);
 }

@@ -74,8 +74,9 @@ std::optional<double> FreeBefore(Vec2 point_body, double body_radius_m) {
 // Carries the object at `seen_world` on by `moved_m` towards where the sensor was, and keeps it if
 // it is in the corridor then.
 template <typename Scan>
-void Judge(const SeenObjects& seen, const HeldScan<Scan>& held, double range_m, double bearing_rad,
-           double moved_m, const Situation& s, std::optional<ObjectAhead>* nearest) {
+void Consider(const SeenObjects& seen, const HeldScan<Scan>& held, double range_m,
+              double bearing_rad, double moved_m, const Situation& s,
+              std::optional<ObjectAhead>* nearest) {
   // It comes no nearer than to the shell.
   const double nearest_m = std::min(range_m, s.own.options.profile.body_radius_m);
   const Vec2 then_body = At(std::max(nearest_m, range_m - moved_m), bearing_rad);
@@ -97,14 +98,14 @@ std::optional<ObjectAhead> NearestObstacle(const SeenObjects& seen, const Situat
       const double by_driving = seen.radar.speed_m_s * Cos(object.bearing_rad);
       const double nearing_m_s = -(object.range_rate_m_s + by_driving);
       const double moved_m = nearing_m_s > kStandsStill_m_s ? nearing_m_s * on_s : 0;
-      Judge(seen, seen.radar, object.range_m, object.bearing_rad, moved_m, s, &nearest);
+      Consider(seen, seen.radar, object.range_m, object.bearing_rad, moved_m, s, &nearest);
     }
   }
   if (IsFresh(seen.lidar, s.own)) {
     for (std::size_t i = 0; i < kLidarBeams; ++i) {
       if (seen.lidar.scan.echo[i] != Echo::kEcho) continue;
       const double bearing_rad = Radians(static_cast<double>(i) - 90.0);
-      Judge(seen, seen.lidar, seen.lidar.scan.range_m[i], bearing_rad, 0, s, &nearest);
+      Consider(seen, seen.lidar, seen.lidar.scan.range_m[i], bearing_rad, 0, s, &nearest);
     }
   }
   return nearest;

@@ -8,7 +8,7 @@
 namespace giveway {
 namespace {
 
-constexpr double kLongestWay_m = 1000;
+constexpr double kLongestPath_m = 1000;
 
 // Of the distance between the two centres: only what lies along it counts.
 double SigmaBetween(const CarriedPeer& view) {
@@ -58,8 +58,8 @@ double RoomBeside(const CarriedPeer& view, const OwnView& s) {
 
 Vec2 Toward(const OwnView& s) {
   if (s.arrived || s.lost) return s.world_from_body.position_world;
-  const double way_m = std::min(s.distance_to_goal_m, kLongestWay_m);
-  return s.world_from_body.position_world + way_m * s.path.direction_world;
+  const double path_m = std::min(s.distance_to_goal_m, kLongestPath_m);
+  return s.world_from_body.position_world + path_m * s.path.direction_world;
 }
 
 bool Occupies(const CarriedPeer& view, Vec2 point_world, const OwnView& s) {

@@ -1,9 +1,9 @@
 // One tick as the rules see it, in stages. Each is completed by one function from those before it,
 // and only read from then on: what is not known yet cannot be asked for.
 //
-//   OwnView     Vehicle::LookAtSelf    this vehicle: pose, motion, course, sensors, lights
-//   PeersNow    Vehicle::LookAround    the relevant peers, related to it
-//   Movers      ListenForMovers        what moves near and is none of them
+//   OwnView     Vehicle::AssessSelf    this vehicle: pose, motion, course, sensors, lights
+//   PeersNow    Vehicle::AssessSurroundings    the relevant peers, related to it
+//   Movers      DetectMovers        what moves near and is none of them
 //   Escape      Detour                 what to try when it makes no progress
 //   Situation   BuildSituation         all of these: what the rules read
 #pragma once
@@ -20,7 +20,7 @@
 #include "services/vehicle/estimation/objects.h"
 #include "services/vehicle/estimation/peer_table.h"
 #include "services/vehicle/estimation/range_view.h"
-#include "services/vehicle/estimation/signals.h"
+#include "services/vehicle/estimation/signal_table.h"
 
 namespace giveway {
 
@@ -40,20 +40,20 @@ struct CarriedPeer : HeardPeer {
   double distance_m;     // the same
   PoseCovariance apart;  // of where the peer is to this vehicle
   double sigma_m;        // the same along its worst axis
-  Vec2 way_world;        // from where it is to its next target
-  bool way_is_near;      // that path comes within reach of the own path, or may
+  Vec2 path_world;       // from where it is to its next target
+  bool path_is_near;     // that path comes within reach of the own path, or may
   // Only if that path is near: its length and its unit vector, or that of the heading where the
   // peer is there already.
-  double way_m;
-  Vec2 way_direction_world;
+  double path_m;
+  Vec2 path_direction_world;
 };
 
 // Related to the own path and to the right of way, by its beacon and the own state alone: by
-// LookAt.
+// RelatePeers.
 struct RelatedPeer : CarriedPeer {
   bool lost;
   bool standing;      // below kStandingSpeed
-  bool goes_first;    // before this vehicle, by both keys as published
+  bool has_priority;  // before this vehicle, by both keys as published
   bool believed;      // fresh and not doubted
   bool grants;        // believed, and says that it gives way to this vehicle or stays where it is
   bool at_signal;     // believed, and says that a light stops it
@@ -106,8 +106,8 @@ struct HeardPlaces {
 // A box that would be left too late: see box.h.
 struct BlockedBox {
   double begin_m = 0;  // from the own axle centre, along the own path; above 0
-  VehicleId by = kNobody;
-  Tick told = kNoTick;  // of the beacon that shows it
+  VehicleId by = kNoVehicle;
+  Tick beacon_tick = kNoTick;  // of the beacon that shows it
 };
 
 // When it is, and what the step was called with.
@@ -137,8 +137,8 @@ struct OwnMotion {
   double reaction_s = 0;  // see ReactionSeconds
   double slows_m = 0;     // a free path no longer than this is too short for the cruise speed
   double sweeps_m = 0;    // see OwnSweep
-  double looks_m = 0;     // see LooksAround
-  bool turns = false;     // sharply, or did just now: echoes do not show which of both moves
+  double interest_radius_m = 0;  // see InterestRadius
+  bool turns = false;            // sharply, or did just now: echoes do not show which of both moves
 };
 
 // Where it drives to.
@@ -168,7 +168,7 @@ struct Lights {
 // The first stage: this vehicle, as estimation has it. Nothing of any single peer.
 struct OwnView : Moment, OwnPose, OwnMotion, OwnCourse, SensorsNow, Lights {
   const VehicleOptions& options;
-  OrderKey order;      // as it publishes it with this step
+  PriorityKey order;   // as it publishes it with this step
   int steer_side = 0;  // the side of the last turn past something: 1 left, -1 right
 };
 
@@ -192,19 +192,20 @@ struct PeersNow {
 
 // What moves by itself near the vehicle.
 struct Movers {
-  bool deaf = false;  // something near moves and no fresh beacon explains it
-  int deaf_sensor = -1;
+  bool unidentified = false;  // something near moves and no fresh beacon explains it
+  int unidentified_sensor = -1;
 };
 
 // What a vehicle does when it makes no progress towards its target.
 struct Escape {
-  bool aimless = false;              // has driven about for seconds without coming nearer
-  bool very_aimless = false;         // for so long that it does not stay in line any more
+  bool no_progress = false;          // has driven about for seconds without coming nearer
+  bool long_no_progress = false;     // for so long that it does not stay in line any more
   std::optional<Vec2> detour_world;  // where to go first, instead of straight to the goal
   // World frame: chosen recently, to get past echoes or out of where it is stuck. Echoes turn with
   // the vehicle: choosing again each tick it would turn to and fro for ever.
   std::optional<double> away_rad;
-  int tries = -1;  // headings tried since it is stuck at this place; negative if it is not
+  int escape_attempts =
+      -1;  // headings tried since it is stuck at this place; negative if it is not
 };
 
 // The last stage, what the rules read: both before, and what follows from both.

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "services/types/math/math.h"
-#include "services/vehicle/estimation/planted.h"
+#include "services/vehicle/estimation/injected_mutants.h"
 
 namespace giveway {
 namespace {
@@ -15,8 +15,8 @@ constexpr double kGoneMargin_s = 0.3;      // it has left, and a beacon has repo
 // Two vehicles that pass a conflict one after the other need less distance than two that stop
 // wherever they like: one is past the crossing by as much as the other is before it. With the angle
 // a between the paths both may be nearer to it by sin(a / 2).
-Conflict Shrunk(const Conflict& conflict, Vec2 own_way, Vec2 peer_way) {
-  const double share = Sqrt(std::clamp((1 - Dot(own_way, peer_way)) / 2, 0.25, 1.0));
+Conflict Shrunk(const Conflict& conflict, Vec2 own_path, Vec2 peer_path) {
+  const double share = Sqrt(std::clamp((1 - Dot(own_path, peer_path)) / 2, 0.25, 1.0));
   const auto shrunk = [share](const Stretch& stretch) {
     const double middle_m = (stretch.begin_m + stretch.end_m) / 2;
     const double half_m = share * (stretch.end_m - stretch.begin_m) / 2;
@@ -26,18 +26,18 @@ Conflict Shrunk(const Conflict& conflict, Vec2 own_way, Vec2 peer_way) {
 }
 
 // One that is in the conflict already is counted on to be anywhere in it.
-Conflict InTurn(const Conflict& conflict, Vec2 own_way, Vec2 peer_way) {
+Conflict InTurn(const Conflict& conflict, Vec2 own_path, Vec2 peer_path) {
   if (conflict.own.begin_m <= 0 || conflict.peer.begin_m <= 0) return conflict;
-  return Shrunk(conflict, own_way, peer_way);
+  return Shrunk(conflict, own_path, peer_path);
 }
 
 }  // namespace
 
 bool IsThroughFirst(const RelatedPeer& view, const OwnView& s) {
-  if (!view.conflict || Has(Defect::kThroughFirstGuessed)) return true;
+  if (!view.conflict || MutantActive(Mutant::kThroughFirstGuessed)) return true;
   const Beacon& beacon = view.peer->beacon;
   const Conflict conflict =
-      InTurn(*view.conflict, s.path.direction_world, view.way_direction_world);
+      InTurn(*view.conflict, s.path.direction_world, view.path_direction_world);
   const double own_s = TimeToCover(conflict.own.end_m, std::max(0.0, s.speed_m_s),
                                    s.options.cruise_m_s, s.options.profile.acceleration_m_s2);
   const double fastest = kPeerSpeedSlack * std::max(beacon.cruise_m_s, view.speed_m_s);
@@ -50,7 +50,7 @@ bool IsThroughFirst(const RelatedPeer& view, const OwnView& s) {
 bool IsGoneInTime(const RelatedPeer& view, const OwnView& s) {
   if (!view.fresh || !view.conflict || view.speed_m_s < kStandingSpeed_m_s) return false;
   const Conflict conflict =
-      Shrunk(*view.conflict, s.path.direction_world, view.way_direction_world);
+      Shrunk(*view.conflict, s.path.direction_world, view.path_direction_world);
   if (conflict.peer.end_m <= 0) return true;
   if (conflict.own.begin_m <= 0) return false;
   const double own_s = TimeToCover(conflict.own.begin_m, std::max(0.0, s.speed_m_s),

@@ -28,7 +28,7 @@ void SpeakAsWorld(const Orders& orders, const std::function<void(RosterEntry*)>&
 
 void RosterOfAnotherId(const Orders& orders) {
   SpeakAsWorld(orders,
-               [&](RosterEntry* entry) { entry->vehicle = VehicleId{Number(orders.victim) + 1}; });
+               [&](RosterEntry* entry) { entry->vehicle = VehicleId{Number(orders.target) + 1}; });
 }
 
 void RosterNan(const Orders& orders) {
@@ -71,12 +71,12 @@ void Command(const Orders& orders) {
   Intruder intruder(orders);
   intruder.LookRound();
   auto commands =
-      intruder.Participant().MakeWriter<wire::MotorCommand>(link::VehiclePartition(orders.victim));
+      intruder.Participant().MakeWriter<wire::MotorCommand>(link::VehiclePartition(orders.target));
   intruder.AwaitReader(commands);
   intruder.Repeat(milliseconds(5), [&](std::uint32_t i) {
-    const Truth& truth = intruder.VictimNow();
+    const Truth& truth = intruder.TargetNow();
     MotorCommand command;
-    command.vehicle = orders.victim;
+    command.vehicle = orders.target;
     command.epoch = truth.epoch;
     command.tick = After(truth.tick, i % 2 == 0 ? 0 : 1 + i % 4);
     command.target = {6, 6};
@@ -88,12 +88,12 @@ void Scan(const Orders& orders, std::uint32_t ahead, RunState state) {
   Intruder intruder(orders);
   intruder.LookRound();
   auto scans =
-      intruder.Participant().MakeWriter<wire::RangeScan>(link::VehiclePartition(orders.victim));
+      intruder.Participant().MakeWriter<wire::RangeScan>(link::VehiclePartition(orders.target));
   intruder.AwaitReader(scans);
   intruder.Repeat(milliseconds(10), [&](std::uint32_t) {
-    const Truth& truth = intruder.VictimNow();
+    const Truth& truth = intruder.TargetNow();
     RangeScan scan;
-    scan.vehicle = orders.victim;
+    scan.vehicle = orders.target;
     scan.epoch = truth.epoch;
     scan.tick = After(truth.tick, ahead);
     scan.run_state = state;
@@ -105,13 +105,13 @@ void Scan(const Orders& orders, std::uint32_t ahead, RunState state) {
 void ScanFarAhead(const Orders& orders) { Scan(orders, 0x8000'0000, RunState::kRunning); }
 void ScanEnded(const Orders& orders) { Scan(orders, 1, RunState::kEnded); }
 
-AdminOrder Elsewhere(const Orders& orders) {
+AdminRequest Elsewhere(const Orders& orders) {
   const std::string client =
       "<discovery_config><discoveryProtocol>CLIENT</discoveryProtocol><discoveryServersList>"
       "<RemoteServer prefix=\"44.53.00.5f.45.50.52.4f.53.49.4d.41\"><metatrafficUnicastLocatorList>"
       "<locator><udpv4><address>127.0.0.1</address><port>11999</port></udpv4></locator>"
       "</metatrafficUnicastLocatorList></RemoteServer></discoveryServersList>";
-  AdminOrder order{.vehicle = orders.victim, .number = 1, .kind = OrderKind::kApply};
+  AdminRequest order{.vehicle = orders.target, .number = 1, .kind = AdminRequestKind::kApply};
   order.profiles.name = "elsewhere.xml";
   order.profiles.text =
       std::regex_replace(OptionsOf(orders).qos.text, std::regex("<discovery_config>"), client);
@@ -123,8 +123,8 @@ void OrderElsewhere(const Orders& orders) {
   Intruder intruder(orders);
   intruder.LookRound();
   auto writer =
-      intruder.Participant().MakeWriter<wire::Order>(link::VehiclePartition(orders.victim));
-  AdminOrder order = Elsewhere(orders);
+      intruder.Participant().MakeWriter<wire::Order>(link::VehiclePartition(orders.target));
+  AdminRequest order = Elsewhere(orders);
   intruder.Repeat(milliseconds(100), [&](std::uint32_t i) {
     order.number = std::uint64_t{1} << 62U | i;
     writer.Write(link::ToWire(order));
@@ -134,7 +134,7 @@ void OrderElsewhere(const Orders& orders) {
 // Replays what operators sent to the target.
 void ReplayOrders(const Orders& orders) {
   Intruder intruder(orders);
-  const std::string partition = link::VehiclePartition(orders.victim);
+  const std::string partition = link::VehiclePartition(orders.target);
   auto heard = intruder.Participant().MakeReader<wire::Order>(partition);
   auto writer = intruder.Participant().MakeWriter<wire::Order>(partition);
   std::vector<wire::Order> kept;
@@ -196,7 +196,7 @@ void SybilJoins(const Orders& orders) {
   }
   std::this_thread::sleep_for(milliseconds(500));
   for (std::uint32_t i = 0; i < kJoins; ++i) {
-    const JoinRequest request{.session = {0x5b11, i, i * 7, 1}, .wanted = kNobody};
+    const JoinRequest request{.session = {0x5b11, i, i * 7, 1}, .wanted = kNoVehicle};
     writers[i % kParticipants].Write(link::ToWire(request));
     if (i % 500 == 0) std::this_thread::sleep_for(milliseconds(10));
   }

@@ -45,14 +45,14 @@ void Intruder::LookRound() {
   Await(
       [this] {
         Take();
-        return entries_.contains(orders_.victim) && truths_.contains(orders_.victim);
+        return entries_.contains(orders_.target) && truths_.contains(orders_.target);
       },
       "no world publishes the target");
 }
 
-const Truth& Intruder::VictimNow() {
+const Truth& Intruder::TargetNow() {
   Take();
-  return truths_.at(orders_.victim);
+  return truths_.at(orders_.target);
 }
 
 void Intruder::Repeat(milliseconds period, const std::function<void(std::uint32_t)>& say) const {

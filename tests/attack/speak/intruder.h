@@ -20,7 +20,7 @@ using std::chrono::milliseconds;
 struct Orders {
   std::uint32_t domain = 0;
   std::string qos_file;
-  VehicleId victim{1};
+  VehicleId target{1};
   milliseconds duration{1500};
 };
 
@@ -40,8 +40,8 @@ class Intruder {
   link::Participant& Participant() { return participant_; }
   const Orders& Asked() const { return orders_; }
   // The target's, as the world published last.
-  const Truth& VictimNow();
-  const RosterEntry& Entry() const { return entries_.at(orders_.victim); }
+  const Truth& TargetNow();
+  const RosterEntry& Entry() const { return entries_.at(orders_.target); }
   const std::map<VehicleId, RosterEntry>& Entries() const { return entries_; }
 
   // Waits for a reader of `writer`. Throws where there is none within seconds.

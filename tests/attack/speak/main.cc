@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
   orders.domain = static_cast<std::uint32_t>(std::strtoul(argv[2], nullptr, 10));
   orders.qos_file = argv[3];
   if (argc > 4) {
-    orders.victim = VehicleId{static_cast<std::uint32_t>(std::strtoul(argv[4], nullptr, 10))};
+    orders.target = VehicleId{static_cast<std::uint32_t>(std::strtoul(argv[4], nullptr, 10))};
   }
   if (argc > 5) orders.duration = attack::milliseconds(std::strtol(argv[5], nullptr, 10));
   try {

@@ -18,21 +18,21 @@ void Close(std::uint32_t from_unit, std::uint32_t to_unit, FreeUnits* open) {
 
 }  // namespace
 
-Clearance::Clearance(const Way& way, const Pace& pace, const TileBook& book, double radius_m)
-    : way_(way),
+Clearance::Clearance(const ArcPath& path, const Pace& pace, const TileBook& book, double radius_m)
+    : path_(path),
       pace_(pace),
       book_(book),
       radius_m_(radius_m),
-      last_unit_(static_cast<std::uint32_t>(way.Length_m() / pace.unit_m)) {
+      last_unit_(static_cast<std::uint32_t>(path.Length_m() / pace.unit_m)) {
   FindTouches();
 }
 
 void Clearance::FindTouches() {
   std::vector<std::pair<Tile, std::uint32_t>> seen;
   std::vector<Tile> tiles;
-  const auto samples = static_cast<std::uint32_t>(way_.Length_m() / kSample_m) + 1;
+  const auto samples = static_cast<std::uint32_t>(path_.Length_m() / kSample_m) + 1;
   for (std::uint32_t sample = 0; sample <= samples; ++sample) {
-    book_.TilesUnder(way_.PoseAt(sample * kSample_m).position_world, radius_m_ + kSample_m / 2,
+    book_.TilesUnder(path_.PoseAt(sample * kSample_m).position_world, radius_m_ + kSample_m / 2,
                      &tiles);
     for (const Tile tile : tiles) {
       if (book_.IsEverTaken(tile)) seen.emplace_back(tile, sample);

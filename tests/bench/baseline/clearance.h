@@ -5,9 +5,9 @@
 #include <deque>
 #include <vector>
 
+#include "tests/bench/baseline/arc_path.h"
 #include "tests/bench/baseline/passage.h"
 #include "tests/bench/baseline/tiles.h"
-#include "tests/bench/baseline/way.h"
 
 namespace giveway::bench {
 
@@ -18,7 +18,7 @@ class Clearance {
  public:
   // Refers to all of them, and to the book as it is now. `radius_m` is of the disc that books the
   // tiles under it.
-  Clearance(const Way& way, const Pace& pace, const TileBook& book, double radius_m);
+  Clearance(const ArcPath& path, const Pace& pace, const TileBook& book, double radius_m);
 
   std::uint32_t LastUnit() const { return last_unit_; }
   // Valid for as long as the clearance is.
@@ -37,7 +37,7 @@ class Clearance {
   void AddTouch(Tile tile, std::uint32_t first_sample, std::uint32_t last_sample);
   FreeUnits FreeUnitsOf(Step step) const;
 
-  const Way& way_;
+  const ArcPath& path_;
   const Pace& pace_;
   const TileBook& book_;
   double radius_m_;

@@ -27,7 +27,7 @@ struct Piece {
   double length_m = 0;
 };
 
-// Touching both: the centres' distance across the direction is the difference of the offsets.
+// ActiveContacts both: the centres' distance across the direction is the difference of the offsets.
 std::optional<Piece> Tangent(const Peg& a, const Peg& b) {
   const Vec2 apart = b.centre - a.centre;
   const double length = Norm(apart);
@@ -69,18 +69,18 @@ class String {
     return false;
   }
 
-  Way AsWay(double beyond_m) const {
+  ArcPath AsPath(double beyond_m) const {
     const Vec2 first = pieces_.front().direction;
-    Way way({pieces_.front().from, Atan2(first.y, first.x)});
+    ArcPath path({pieces_.front().from, Atan2(first.y, first.x)});
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       if (i > 0) {
         const double offset = pegs_[i].offset;
-        way.Add(TurnAt(i) * offset, 1 / offset);
+        path.Add(TurnAt(i) * offset, 1 / offset);
       }
       const bool last = i + 1 == pieces_.size();
-      way.Add(pieces_[i].length_m + (last ? beyond_m : 0), 0);
+      path.Add(pieces_[i].length_m + (last ? beyond_m : 0), 0);
     }
-    return way;
+    return path;
   }
 
  private:
@@ -145,11 +145,11 @@ class String {
 
 }  // namespace
 
-std::optional<Way> WayRound(Vec2 from_world, Vec2 to_world, std::span<const Standing> discs,
-                            double beyond_m) {
+std::optional<ArcPath> PathAround(Vec2 from_world, Vec2 to_world, std::span<const Standing> discs,
+                                  double beyond_m) {
   String string(from_world, to_world, discs);
   if (!string.Pull()) return std::nullopt;
-  return string.AsWay(beyond_m);
+  return string.AsPath(beyond_m);
 }
 
 }  // namespace giveway::bench

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "tests/bench/baseline/way.h"
+#include "tests/bench/baseline/arc_path.h"
 
 namespace giveway::bench {
 
@@ -16,7 +16,7 @@ struct Standing {
 
 // From one place to another and straight on for beyond_m; it starts heading where it goes. Not
 // always the shortest. None if discs overlap so that none was found.
-std::optional<Way> WayRound(Vec2 from_world, Vec2 to_world, std::span<const Standing> discs,
-                            double beyond_m);
+std::optional<ArcPath> PathAround(Vec2 from_world, Vec2 to_world, std::span<const Standing> discs,
+                                  double beyond_m);
 
 }  // namespace giveway::bench

@@ -16,7 +16,7 @@ constexpr double kHeading_per_m = 5;
 constexpr double kTurnsOnTheSpot_rad = 0.02;
 
 // On the spot: as fast as it can still be stopped from at the goal.
-double TurnOnTheSpot(const VehicleProfile& profile, double left_rad) {
+double TurnOnTheSpot(const RobotModel& profile, double left_rad) {
   const double off_rad = std::max(left_rad, -left_rad);
   if (off_rad < kNoise_rad) return 0;
   constexpr double kGain_per_s = 6;
@@ -27,9 +27,9 @@ double TurnOnTheSpot(const VehicleProfile& profile, double left_rad) {
 
 }  // namespace
 
-WheelSpeeds FollowWay(const VehicleProfile& profile, const Way& way, const Planned& planned,
-                      const Pose& world_from_body) {
-  const Pose wanted = way.PoseAt(planned.driven_m);
+WheelSpeeds FollowPath(const RobotModel& profile, const ArcPath& path, const Planned& planned,
+                       const Pose& world_from_body) {
+  const Pose wanted = path.PoseAt(planned.driven_m);
   const Vec2 off = ToBody(wanted, world_from_body.position_world);
   const double heading_off = WrapAngle(world_from_body.heading_rad - wanted.heading_rad);
   if (planned.speed_m_s <= 0) {
@@ -39,12 +39,12 @@ WheelSpeeds FollowWay(const VehicleProfile& profile, const Way& way, const Plann
     return WheelsFromTwist(profile.drive, {0, TurnOnTheSpot(profile, -heading_off)});
   }
   const double speed = std::max(0.0, planned.speed_m_s - kBackOnPlan_per_s * off.x);
-  const double bend = way.BendAt(planned.driven_m + kAhead_s * planned.speed_m_s) -
+  const double bend = path.BendAt(planned.driven_m + kAhead_s * planned.speed_m_s) -
                       kAcross_per_m2 * off.y - kHeading_per_m * heading_off;
   return WheelsFromTwist(profile.drive, {speed, bend * speed});
 }
 
-double SecondsToTurn(const VehicleProfile& profile, double angle_rad) {
+double SecondsToTurn(const RobotModel& profile, double angle_rad) {
   const double angle = std::max(angle_rad, -angle_rad);
   if (angle < kTurnsOnTheSpot_rad) return 0;
   constexpr double kSettle_s = 0.8;

@@ -2,9 +2,9 @@
 // how fast. Exact on straight paths; where the path starts to bend the wheels lag a little.
 #pragma once
 
-#include "services/types/profile.h"
+#include "services/types/robot_model.h"
+#include "tests/bench/baseline/arc_path.h"
 #include "tests/bench/baseline/pilot.h"
-#include "tests/bench/baseline/way.h"
 
 namespace giveway::bench {
 
@@ -13,10 +13,10 @@ struct Planned {
   double speed_m_s = 0;  // at the end of the tick
 };
 
-WheelSpeeds FollowWay(const VehicleProfile& profile, const Way& way, const Planned& planned,
-                      const Pose& world_from_body);
+WheelSpeeds FollowPath(const RobotModel& profile, const ArcPath& path, const Planned& planned,
+                       const Pose& world_from_body);
 
-// Enough to turn on the spot by an angle under FollowWay, starting and ending at rest.
-double SecondsToTurn(const VehicleProfile& profile, double angle_rad);
+// Enough to turn on the spot by an angle under FollowPath, starting and ending at rest.
+double SecondsToTurn(const RobotModel& profile, double angle_rad);
 
 }  // namespace giveway::bench

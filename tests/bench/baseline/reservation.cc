@@ -35,13 +35,13 @@ double BrakingBeyond_m(const VehicleOptions& options) {
   return cruise * cruise / (2 * options.profile.deceleration_m_s2) + kLastStep_s * cruise;
 }
 
-Way WayAlone(const VehicleOptions& options) {
+ArcPath PathAlone(const VehicleOptions& options) {
   const double to_goal_m = Norm(options.goal.at_world - options.start_world.position_world);
-  return StraightWay(options.start_world, to_goal_m + BrakingBeyond_m(options));
+  return StraightPath(options.start_world, to_goal_m + BrakingBeyond_m(options));
 }
 
-Step TurnSteps(const VehicleOptions& options, const Way& way) {
-  const double turn = WrapAngle(way.PoseAt(0).heading_rad - options.start_world.heading_rad);
+Step TurnSteps(const VehicleOptions& options, const ArcPath& path) {
+  const double turn = WrapAngle(path.PoseAt(0).heading_rad - options.start_world.heading_rad);
   const double step_s = kTicksAStep * Seconds(options.tick_period);
   return static_cast<Step>(SecondsToTurn(options.profile, turn) / step_s + 0.999);
 }
@@ -83,7 +83,7 @@ Reservation::Reservation(const Scenario& scenario, const ReservationSettings& se
       ArrivalsOf(scenario, 2 * LargestBody_m(scenario) + settings.margin_m);
   for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
     const VehicleOptions& options = scenario.vehicles[i];
-    members_.push_back({options, PaceOf(options), std::move(arrivals[i]), WayAlone(options), {}});
+    members_.push_back({options, PaceOf(options), std::move(arrivals[i]), PathAlone(options), {}});
     GIVEWAY_CHECK(book_.BookFrom(TilesAt(members_.back(), 0), 0), Number(options.id));
   }
   ServeEveryone();
@@ -95,7 +95,7 @@ double Reservation::Radius(const Member& member) const {
 
 std::vector<Tile> Reservation::TilesAt(const Member& member, double driven_m) const {
   std::vector<Tile> tiles;
-  book_.TilesUnder(member.way.PoseAt(driven_m).position_world, Radius(member), &tiles);
+  book_.TilesUnder(member.path.PoseAt(driven_m).position_world, Radius(member), &tiles);
   return tiles;
 }
 
@@ -145,18 +145,18 @@ std::vector<Standing> Reservation::StandingBeside(const Member& member) const {
     // Discs that far apart touch no tile both, wherever between its samples a clearance looks.
     const double apart_m = Sqrt(2) * settings_.tile_m + kSample_m;
     standing.push_back(
-        {other.way.PoseAt(rest_m).position_world, Radius(member) + Radius(other) + apart_m});
+        {other.path.PoseAt(rest_m).position_world, Radius(member) + Radius(other) + apart_m});
   }
   return standing;
 }
 
-bool Reservation::Try(const Way& way, Step last_step, Member* member) const {
-  Clearance clearance(way, member->pace, book_, Radius(*member));
+bool Reservation::Try(const ArcPath& path, Step last_step, Member* member) const {
+  Clearance clearance(path, member->pace, book_, Radius(*member));
   const double arrive_m =
-      way.Length_m() - BrakingBeyond_m(member->options) - member->options.goal.radius_m;
+      path.Length_m() - BrakingBeyond_m(member->options) - member->options.goal.radius_m;
   std::optional<Passage> passage = SoonestPassage(
       member->pace,
-      {.first_step = TurnSteps(member->options, way),
+      {.first_step = TurnSteps(member->options, path),
        .arrive_unit = static_cast<std::uint32_t>(arrive_m / member->pace.unit_m) + 1,
        .last_unit = clearance.LastUnit(),
        .last_step = last_step,
@@ -164,18 +164,18 @@ bool Reservation::Try(const Way& way, Step last_step, Member* member) const {
        .may_stay = [&](std::uint32_t unit, Step step) { return clearance.MayStay(unit, step); }});
   if (!passage) return false;
   member->passage = std::move(passage);
-  member->way = way;
+  member->path = path;
   return true;
 }
 
 bool Reservation::Serve(Member* member) {
   const std::vector<Tile> start = TilesAt(*member, 0);
   book_.GiveBack(start);
-  const std::optional<Way> round =
-      WayRound(member->options.start_world.position_world, member->options.goal.at_world,
-               StandingBeside(*member), BrakingBeyond_m(member->options));
+  const std::optional<ArcPath> round =
+      PathAround(member->options.start_world.position_world, member->options.goal.at_world,
+                 StandingBeside(*member), BrakingBeyond_m(member->options));
   if (round) Try(*round, last_step_, member);
-  const Way alone = WayAlone(member->options);
+  const ArcPath alone = PathAlone(member->options);
   constexpr double kSame_m = 1e-6;
   if (!round || round->Length_m() > alone.Length_m() + kSame_m) {
     // Straight past vehicles that block the path only for a time, if that is sooner.
@@ -220,8 +220,8 @@ void Reservation::Drive(std::uint32_t tick, std::span<const Seen> fleet,
     wheels[i] = {};
     const Member& member = members_[i];
     if (!member.passage || step + 1 >= member.passage->levels.size()) continue;
-    wheels[i] = FollowWay(member.options.profile, member.way,
-                          PlannedAt(*member.passage, member.pace, tick), fleet[i].world_from_body);
+    wheels[i] = FollowPath(member.options.profile, member.path,
+                           PlannedAt(*member.passage, member.pace, tick), fleet[i].world_from_body);
   }
 }
 

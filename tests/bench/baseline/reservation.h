@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "services/types/scenario.h"
+#include "tests/bench/baseline/arc_path.h"
 #include "tests/bench/baseline/arrivals.h"
 #include "tests/bench/baseline/detour.h"
 #include "tests/bench/baseline/passage.h"
 #include "tests/bench/baseline/pilot.h"
 #include "tests/bench/baseline/tiles.h"
-#include "tests/bench/baseline/way.h"
 
 namespace giveway::bench {
 
@@ -38,7 +38,7 @@ class Reservation : public Pilot {
     VehicleOptions options;
     Pace pace;
     Arrival arrival;
-    Way way;
+    ArcPath path;
     std::optional<Passage> passage;
   };
 
@@ -48,7 +48,7 @@ class Reservation : public Pilot {
   // False: it stays where it stands.
   bool Serve(Member* member);
   // True if it arrives along the path by last_step at the latest; it takes the path then.
-  bool Try(const Way& way, Step last_step, Member* member) const;
+  bool Try(const ArcPath& path, Step last_step, Member* member) const;
   std::vector<Standing> StandingBeside(const Member& member) const;
   void Book(const Member& member);
   std::vector<Tile> TilesAt(const Member& member, double driven_m) const;

@@ -14,19 +14,19 @@ Vec2 Unit(Vec2 v) {
 
 // From the relative velocity to the nearest point on the rim of the obstacle, and the direction
 // outwards there.
-struct WayOut {
+struct ConeExit {
   Vec2 change;
   Vec2 outward;  // of length 1
 };
 
-WayOut FromDisc(Vec2 relative_velocity, Vec2 centre, double radius) {
+ConeExit FromDisc(Vec2 relative_velocity, Vec2 centre, double radius) {
   const Vec2 offset = relative_velocity - centre;
   const Vec2 outward = Unit(offset);
   return {(radius - Norm(offset)) * outward, outward};
 }
 
 // The sides of the cone of velocities that lead into a disc at `apart`.
-WayOut FromSide(Vec2 relative_velocity, Vec2 apart, double radius) {
+ConeExit FromSide(Vec2 relative_velocity, Vec2 apart, double radius) {
   const double reach = Sqrt(SquaredNorm(apart) - radius * radius);
   const bool on_left = Cross(apart, relative_velocity) > 0;
   const Vec2 side =
@@ -36,7 +36,7 @@ WayOut FromSide(Vec2 relative_velocity, Vec2 apart, double radius) {
           on_left ? Left(along) : -1 * Left(along)};
 }
 
-WayOut OutOfObstacle(Vec2 relative_velocity, Vec2 apart, double radius, double horizon_s) {
+ConeExit OutOfObstacle(Vec2 relative_velocity, Vec2 apart, double radius, double horizon_s) {
   const Vec2 centre = 1 / horizon_s * apart;
   const Vec2 offset = relative_velocity - centre;
   const double back = Dot(offset, apart);
@@ -54,8 +54,8 @@ HalfPlane ReciprocalPlane(const Mover& own, const Mover& other, double horizon_s
   const Vec2 relative_velocity = own.velocity_world - other.velocity_world;
   const double radius = own.radius_m + other.radius_m;
   const bool overlap = SquaredNorm(apart) <= radius * radius;
-  const WayOut out = overlap ? FromDisc(relative_velocity, 1 / step_s * apart, radius / step_s)
-                             : OutOfObstacle(relative_velocity, apart, radius, horizon_s);
+  const ConeExit out = overlap ? FromDisc(relative_velocity, 1 / step_s * apart, radius / step_s)
+                               : OutOfObstacle(relative_velocity, apart, radius, horizon_s);
   return {own.velocity_world + 0.5 * out.change, out.outward};
 }
 

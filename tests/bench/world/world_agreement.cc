@@ -25,7 +25,7 @@ double DiscBound(double range_m, double radius_m) {
 }
 
 // A transducer and what bounds its rays.
-struct Ear {
+struct Receiver {
   Vec2 apex_world;
   double body_radius_m;
   double max_range_m;
@@ -33,31 +33,31 @@ struct Ear {
 };
 
 // The longest range seven rays may return where the exact one is range_m.
-double LongestOfRays(const Ear& ear, double range_m) {
-  const bool wall_is_near = std::ranges::any_of(ear.walls, [&](const Wall& wall) {
-    const Vec2 nearest = sim::NearestOnSegment(wall.from_world, wall.to_world, ear.apex_world);
-    return Norm(nearest - ear.apex_world) <= range_m + kRounding_m;
+double LongestOfRays(const Receiver& receiver, double range_m) {
+  const bool wall_is_near = std::ranges::any_of(receiver.walls, [&](const Wall& wall) {
+    const Vec2 nearest = sim::NearestOnSegment(wall.from_world, wall.to_world, receiver.apex_world);
+    return Norm(nearest - receiver.apex_world) <= range_m + kRounding_m;
   });
-  const double disc_m = DiscBound(range_m, ear.body_radius_m);
+  const double disc_m = DiscBound(range_m, receiver.body_radius_m);
   const double bound_m = wall_is_near ? std::max(disc_m, kOneOnEachSide * range_m) : disc_m;
-  return std::min(bound_m, ear.max_range_m);
+  return std::min(bound_m, receiver.max_range_m);
 }
 
-bool Within(const Ear& ear, double least_m, double most_m, double peer_m) {
+bool Within(const Receiver& receiver, double least_m, double most_m, double peer_m) {
   if (peer_m < least_m - kRounding_m) return false;
-  if (peer_m <= DiscBound(most_m, ear.body_radius_m) + kRounding_m) return true;
-  return peer_m <= LongestOfRays(ear, most_m) + kRounding_m;
+  if (peer_m <= DiscBound(most_m, receiver.body_radius_m) + kRounding_m) return true;
+  return peer_m <= LongestOfRays(receiver, most_m) + kRounding_m;
 }
 
-void CompareReading(const Ear& ear, double exact_m, double least_m, double most_m, double peer_m,
-                    Agreement* agreement) {
+void CompareReading(const Receiver& receiver, double exact_m, double least_m, double most_m,
+                    double peer_m, Agreement* agreement) {
   GIVEWAY_CHECK(least_m <= exact_m && exact_m <= most_m, exact_m);
   ++agreement->readings;
   if (least_m < kOnSurface_m) {
     ++agreement->on_surface;
-  } else if (Within(ear, exact_m, exact_m, peer_m)) {
+  } else if (Within(receiver, exact_m, exact_m, peer_m)) {
     agreement->worst_excess_m = std::max(agreement->worst_excess_m, peer_m - exact_m);
-  } else if (Within(ear, least_m, most_m, peer_m)) {
+  } else if (Within(receiver, least_m, most_m, peer_m)) {
     ++agreement->grazing;
   } else {
     ++agreement->disagreements;
@@ -74,9 +74,10 @@ void Compare(const SensedBodies& world, std::span<const RayRanges> peer,
     GIVEWAY_CHECK(body.world_from_body == world.narrower[i].world_from_body);
     const double max_range_m = body.profile.sonar_max_range_m;
     for (std::size_t cone = 0; cone < kSensorCount; ++cone) {
-      const Ear ear = {ToWorld(body.world_from_body, body.profile.sonar[cone].position_body),
-                       body.profile.body_radius_m, max_range_m, walls};
-      CompareReading(ear, RangeOf(body.sonar.readings[cone], max_range_m),
+      const Receiver receiver = {
+          ToWorld(body.world_from_body, body.profile.sonar[cone].position_body),
+          body.profile.body_radius_m, max_range_m, walls};
+      CompareReading(receiver, RangeOf(body.sonar.readings[cone], max_range_m),
                      RangeOf(world.wider[i].sonar.readings[cone], max_range_m),
                      RangeOf(world.narrower[i].sonar.readings[cone], max_range_m),
                      std::min(static_cast<double>(peer[i][cone]), max_range_m), agreement);

@@ -34,7 +34,7 @@ VehicleOptions VehicleIn(Vec2 cell_middle_world, std::uint32_t id) {
   return options;
 }
 
-WheelSpeeds Draw(const VehicleProfile& profile, Random* dice) {
+WheelSpeeds Draw(const RobotModel& profile, Random* dice) {
   const double forward_m_s = dice->Uniform(-0.5, profile.max_speed_m_s);
   return WheelsFromTwist(profile.drive, {forward_m_s, dice->Uniform(-1, 1)});
 }

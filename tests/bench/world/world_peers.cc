@@ -5,7 +5,7 @@
 
 namespace giveway::bench {
 
-RayFan FanOf(const VehicleProfile& profile) {
+RayFan FanOf(const RobotModel& profile) {
   constexpr double kMiddleRay = (kRaysACone - 1) / 2.0;
   GIVEWAY_CHECK(profile.sonar_half_angle_rad > kMiddleRay * kRayStep_rad - 1e-9 &&
                     profile.sonar_half_angle_rad < kMiddleRay * kRayStep_rad + 1e-9,

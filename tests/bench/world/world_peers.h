@@ -46,6 +46,6 @@ struct RayFan {
   std::array<float, kRaysAVehicle> direction_y_body{};
   float range_m = 0;
 };
-RayFan FanOf(const VehicleProfile& profile);
+RayFan FanOf(const RobotModel& profile);
 
 }  // namespace giveway::bench

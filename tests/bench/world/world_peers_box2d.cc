@@ -53,8 +53,8 @@ class Box2dPeer final : public Peer {
   void Move(std::span<const Pose> world_from_body) override {
     poses_.assign(world_from_body.begin(), world_from_body.end());
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      const b2Vec2 way = ToBox2d(poses_[i].position_world) - bodies_[i]->GetPosition();
-      bodies_[i]->SetLinearVelocity((1 / dt_s_) * way);
+      const b2Vec2 displacement = ToBox2d(poses_[i].position_world) - bodies_[i]->GetPosition();
+      bodies_[i]->SetLinearVelocity((1 / dt_s_) * displacement);
     }
     // No constraint is to be solved, so one iteration of each kind is enough.
     world_.Step(dt_s_, 1, 1);

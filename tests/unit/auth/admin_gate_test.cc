@@ -13,11 +13,11 @@ using ::testing::HasSubstr;
 
 constexpr const char* kKey = "0123456789abcdef";
 
-AdminOrder Order(std::uint64_t number, const std::string& key = kKey) {
-  AdminOrder order{.vehicle = VehicleId{7},
-                   .number = number,
-                   .kind = OrderKind::kApply,
-                   .profiles = {"a.xml", "<dds/>"}};
+AdminRequest Order(std::uint64_t number, const std::string& key = kKey) {
+  AdminRequest order{.vehicle = VehicleId{7},
+                     .number = number,
+                     .kind = AdminRequestKind::kApply,
+                     .profiles = {"a.xml", "<dds/>"}};
   order.seal = SealOf(key, order);
   return order;
 }
@@ -44,14 +44,14 @@ TEST(AdminGate, TakesAnOrderThatIsSealedWithItsKeyOnce) {
 TEST(AdminGate, RefusesAnotherKeyNoSealAndAnyFieldThatWasChanged) {
   AdminGate gate(kKey, 0);
   EXPECT_THAT(gate.WhyNot(Order(1, "another key 12345")), HasSubstr("not sealed"));
-  AdminOrder order = Order(1);
+  AdminRequest order = Order(1);
   order.seal = {};
   EXPECT_THAT(gate.WhyNot(order), HasSubstr("not sealed"));
   for (int i = 0; i < 5; ++i) {
     order = Order(1);
     if (i == 0) order.vehicle = VehicleId{8};
     if (i == 1) order.number = 2;
-    if (i == 2) order.kind = OrderKind::kKeepRing;
+    if (i == 2) order.kind = AdminRequestKind::kKeepRing;
     if (i == 3) order.profiles.name = "b.xml";
     if (i == 4) order.profiles = {"a.xml<", "dds/>"};
     EXPECT_THAT(gate.WhyNot(order), HasSubstr("not sealed")) << i;

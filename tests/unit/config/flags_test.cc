@@ -313,8 +313,8 @@ TEST(Flags, TheTwinOfAFlagIsSpeltInCapitals) {
 }
 
 TEST(Flags, DiscoveryServersAreReadFromTheFlagOrItsTwin) {
-  const auto told = Vehicle({"--scenario", "s", "--domain", "3", "--discovery-server", "a,b:7"});
-  const auto& servers = std::get<ServiceFlags>(told).discovery_servers;
+  const auto parsed = Vehicle({"--scenario", "s", "--domain", "3", "--discovery-server", "a,b:7"});
+  const auto& servers = std::get<ServiceFlags>(parsed).discovery_servers;
   EXPECT_EQ(ToText(servers), "a:11811,b:7");
   const Variable twin("GIVEWAY_DISCOVERY_SERVER", "a:x");
   EXPECT_THAT(Refusal({"--scenario", "s", "--domain", "3"}),

@@ -56,7 +56,7 @@ TEST(Place, ARefreshIsARoundOfSlotsInWholeTicksAndOneSlotMore) {
 }
 
 TEST(Place, ABoxForABodyBringsTheDiscThatHoldsIt) {
-  const VehicleProfile profile =
+  const RobotModel profile =
       Load(Spoilt("id: 1", "id: 1 profile { box { half_length_m: 0.4 half_width_m: 0.3 } }"))
           .vehicles[0]
           .profile;
@@ -81,11 +81,11 @@ TEST(Place, SlipNoiseAndSensorsReachTheProfile) {
                                   "sensors { lidar: true camera: true } }") +
                            "profile { sensors { radar: true lidar: false } }";
   const Scenario scenario = Load(text);
-  const VehicleProfile& first = scenario.vehicles[0].profile;
+  const RobotModel& first = scenario.vehicles[0].profile;
   EXPECT_EQ(first.wheel_slip, 0.02);
   EXPECT_EQ(first.encoder_noise, 0.01);
   EXPECT_TRUE(first.radar && first.lidar && first.camera);
-  const VehicleProfile& second = scenario.vehicles[1].profile;
+  const RobotModel& second = scenario.vehicles[1].profile;
   EXPECT_EQ(second.wheel_slip, 0);
   EXPECT_TRUE(second.radar);
   EXPECT_FALSE(second.lidar || second.camera);
@@ -158,7 +158,7 @@ TEST(Place, SignalsComeSortedWithTheirPlans) {
   EXPECT_EQ(scenario.faults[1].signal, SignalId{9});
   EXPECT_EQ(scenario.faults[1].at_s, 1);
   EXPECT_EQ(scenario.faults[2].kind, FaultKind::kSignalSilent);
-  EXPECT_EQ(scenario.faults[2].vehicle, kNobody);
+  EXPECT_EQ(scenario.faults[2].vehicle, kNoVehicle);
 }
 
 const std::string kSpawn =
@@ -169,7 +169,7 @@ TEST(Place, ASpawnPlaceIsAVehicleWithoutAnId) {
   const Scenario scenario = Load(kGoodScenario + kSpawn + "sonar { tier: p3dx }");
   ASSERT_EQ(scenario.spawns.size(), 1U);
   const VehicleOptions& spawn = scenario.spawns[0];
-  EXPECT_EQ(spawn.id, kNobody);
+  EXPECT_EQ(spawn.id, kNoVehicle);
   EXPECT_EQ(spawn.start_world, (Pose{{-8, 0}, 0}));
   EXPECT_EQ(spawn.cruise_m_s, 0.2);
   EXPECT_TRUE(spawn.goal.set);

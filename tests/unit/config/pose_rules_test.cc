@@ -14,12 +14,12 @@ using ::testing::ElementsAre;
 using ::testing::UnorderedElementsAre;
 
 std::vector<Problem> With(const std::string& text) { return ProblemsOf(kGoodScenario + text); }
-VehicleProfile ProfileWith(const std::string& text) {
+RobotModel ProfileWith(const std::string& text) {
   return Load(kGoodScenario + text).vehicles[0].profile;
 }
 
 TEST(PoseRules, FixesWheelErrorsAndTheLimitReachTheProfile) {
-  const VehicleProfile profile = ProfileWith(
+  const RobotModel profile = ProfileWith(
       "profile { sensors { pose_fix { every_s: 0.5 sigma_m: 0.04 dropout: 0.2 sigma_heading_deg: 3 "
       "} "
       "} wheel_error { diameter: 0.01 axle: -0.02 } pose_limit_m: 0.4 }");

@@ -181,7 +181,7 @@ TEST(Scenario, EveryFieldReachesItsPlace) {
   EXPECT_EQ(scenario.faults[0].before_crossing_m, 2);
   EXPECT_EQ(scenario.expect.contacts, 1U);
   EXPECT_THAT(scenario.expect.halted, ElementsAre(VehicleId{7}));
-  EXPECT_EQ(scenario.expect.halted_for, Rule::kDeaf);
+  EXPECT_EQ(scenario.expect.halted_for, Rule::kUnidentifiedMotion);
   EXPECT_THAT(scenario.expect.arrived, ElementsAre(VehicleId{7}));
   EXPECT_TRUE(scenario.expect.parted);
   EXPECT_EQ(scenario.expect.min_separation_m, 0.5);
@@ -215,7 +215,8 @@ TEST(Scenario, TheNamesOfMetricsAreThoseOfTheSchema) {
 }
 
 TEST(Scenario, TheNamesOfReasonsAreThoseOfTheSchema) {
-  for (const Rule rule : {Rule::kGiveWay, Rule::kNotGranted, Rule::kPeerLost, Rule::kDeaf}) {
+  for (const Rule rule :
+       {Rule::kGiveWay, Rule::kNotGranted, Rule::kPeerLost, Rule::kUnidentifiedMotion}) {
     const std::string line = "any_halted: true halted_for: " + std::string(Name(rule)) + " }";
     EXPECT_EQ(Load(Spoilt("arrived: [1] }", line)).expect.halted_for, rule);
   }

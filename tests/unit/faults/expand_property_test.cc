@@ -62,7 +62,7 @@ Schedule AllOf(const FaultFile& file, const Course& course) {
   return expansion.schedule;
 }
 
-bool Earlier(const Fault& a, const Fault& b) {
+bool StartsBefore(const Fault& a, const Fault& b) {
   return std::tie(a.at_s, a.rule, a.nth) < std::tie(b.at_s, b.rule, b.nth);
 }
 
@@ -79,7 +79,7 @@ TEST(ExpandProperty, ListsAreSortedInTimeAndWithoutFaultsThatExcludeEachOther) {
     const FaultFile file = AnyFile();
     const Course course = AnyCourse();
     const Schedule schedule = AllOf(file, course);
-    RC_ASSERT(std::is_sorted(schedule.begin(), schedule.end(), Earlier));
+    RC_ASSERT(std::is_sorted(schedule.begin(), schedule.end(), StartsBefore));
     for (std::size_t j = 0; j < schedule.size(); ++j) {
       RC_ASSERT(schedule[j].at_s >= course.warm_up_s);
       RC_ASSERT(schedule[j].EndsAt_s() <= course.duration_s - course.healing_s);

@@ -137,7 +137,7 @@ TEST(Health, MetricsHaveNamesUnitsAndHelp) {
   vehicle.status.step_p99_us = 250;
   vehicle.status.loop_max_ms = 1.5;
   vehicle.status.beacons.lost = 3;
-  vehicle.status.timing.figures[static_cast<std::size_t>(DriveFigure::kReactionWay)] = {
+  vehicle.status.timing.figures[static_cast<std::size_t>(DriveFigure::kReactionDistance)] = {
       .count = 4, .sum = 100'000, .p50 = 20'000, .p99 = 40'000, .max = 50'000};
   vehicle.status.timing.narrowest = ReactionMargin{Tick{9}, 0.25, 0.5};
   vehicle.status.timing.budget_spent = 2;

@@ -1,13 +1,13 @@
 // The impaired channel against its configuration, in simulated time. Shares are judged by five
 // standard deviations of a binomial share: a correct model is outside once in two million times,
 // and the seeds are fixed, so here it never is.
+#include "services/link/impairment/channel_model.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
-
-#include "services/link/impairment/impairment.h"
 
 namespace giveway::link {
 namespace {

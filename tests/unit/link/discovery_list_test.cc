@@ -65,7 +65,7 @@ class List {
 
 PacketVerdict VerdictOn(const RtpsPacket& packet, bool secured = false) {
   PacketFilter filter({.secured = secured});
-  return filter.Judge(packet.Bytes(), 0x7f000001, std::chrono::seconds(1));
+  return filter.Check(packet.Bytes(), 0x7f000001, std::chrono::seconds(1));
 }
 
 PacketDrop Judged(const RtpsPacket& packet, bool secured = false) {
@@ -145,7 +145,7 @@ TEST(DiscoveryList, IsReadWhereItIsTheKeyOfWhatEnds) {
   for (const RtpsPacket& packet : {sound, endless}) {
     PacketBytes bytes = packet.Bytes();
     bytes[21] = 0x09;  // flags: little-endian, with a key
-    EXPECT_EQ(PacketFilter({}).Judge(bytes, 0x7f000001, std::chrono::seconds(1)).drop,
+    EXPECT_EQ(PacketFilter({}).Check(bytes, 0x7f000001, std::chrono::seconds(1)).drop,
               Judged(packet));
   }
 }

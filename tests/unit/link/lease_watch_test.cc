@@ -66,7 +66,7 @@ TEST(LeaseWatch, SendsWhatAnHonestParticipantWouldSend) {
   const auto farewell = watch.TakeFarewell(kFirst + kNineTenths);
   ASSERT_TRUE(farewell.has_value());
   PacketFilter filter({});
-  EXPECT_EQ(filter.Judge(*farewell, 0x7f000001, kFirst).drop, PacketDrop::kNone);
+  EXPECT_EQ(filter.Check(*farewell, 0x7f000001, kFirst).drop, PacketDrop::kNone);
   LeaseWatch another;
   Announce(another, kDying, kFirst);
   EXPECT_TRUE(another.Hear(*farewell, kFirst));

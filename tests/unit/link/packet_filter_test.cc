@@ -29,11 +29,11 @@ const PacketBytes kPayload = {0, 1, 0, 0, 1, 2, 3, 4};
 RtpsPacket FromPeer(bool little = true) { return RtpsPacket(kPeer, test::kEProsima, little); }
 
 PacketDrop DropOf(const PacketBytes& packet, SteadyTime now, PacketFilter* filter) {
-  return filter->Judge(packet, kHere, now).drop;
+  return filter->Check(packet, kHere, now).drop;
 }
 
 PacketDrop Alone(const PacketBytes& packet, const PacketFilterOptions& options = {}) {
-  return PacketFilter(options).Judge(packet, kHere, kStart).drop;
+  return PacketFilter(options).Check(packet, kHere, kStart).drop;
 }
 PacketDrop Alone(const RtpsPacket& packet) { return Alone(packet.Bytes()); }
 
@@ -85,7 +85,7 @@ TEST(PacketFilter, CutsOffTheStatisticsThatEndASoundPacket) {
   const PacketBytes without = FromPeer().InfoTs().Data(test::kUserWriter, 1, kPayload).Bytes();
   const PacketBytes with =
       FromPeer().InfoTs().Data(test::kUserWriter, 1, kPayload).Statistics().Bytes();
-  const PacketVerdict verdict = PacketFilter({}).Judge(with, kHere, kStart);
+  const PacketVerdict verdict = PacketFilter({}).Check(with, kHere, kStart);
   EXPECT_EQ(verdict.drop, PacketDrop::kNone);
   EXPECT_EQ(verdict.bytes, without.size());
 }
@@ -229,20 +229,20 @@ TEST(PacketFilter, OnLoopbackHearsLoopback) {
   PacketFilter filter({.loopback_only = true});
   const PacketBytes packet = FromPeer().InfoTs().Bytes();
   EXPECT_EQ(DropOf(packet, kStart, &filter), PacketDrop::kNone);
-  EXPECT_EQ(filter.Judge(packet, kElsewhere, kStart).drop, PacketDrop::kForeignSource);
-  EXPECT_EQ(PacketFilter({}).Judge(packet, kElsewhere, kStart).drop, PacketDrop::kNone);
+  EXPECT_EQ(filter.Check(packet, kElsewhere, kStart).drop, PacketDrop::kForeignSource);
+  EXPECT_EQ(PacketFilter({}).Check(packet, kElsewhere, kStart).drop, PacketDrop::kNone);
 }
 
 // A writer at 20 Hz, as one receiver hears it.
 class Received20Hz {
  public:
   PacketDrop Data(std::int64_t number) {
-    return filter_.Judge(FromPeer().Data(test::kUserWriter, number, kPayload).Bytes(), kHere, now_)
+    return filter_.Check(FromPeer().Data(test::kUserWriter, number, kPayload).Bytes(), kHere, now_)
         .drop;
   }
   PacketDrop Heartbeat(std::int64_t first, std::int64_t last) {
     return filter_
-        .Judge(FromPeer().Heartbeat(test::kUserWriter, first, last, 1).Bytes(), kHere, now_)
+        .Check(FromPeer().Heartbeat(test::kUserWriter, first, last, 1).Bytes(), kHere, now_)
         .drop;
   }
   // Of a late joiner: samples that are gone, and how far the writer is.
@@ -250,7 +250,7 @@ class Received20Hz {
     const RtpsPacket packet = FromPeer()
                                   .Gap(test::kUserWriter, gone, gone + 1, 0)
                                   .Heartbeat(test::kUserWriter, first, last, 1);
-    return filter_.Judge(packet.Bytes(), kHere, now_).drop;
+    return filter_.Check(packet.Bytes(), kHere, now_).drop;
   }
   void Wait(Nanoseconds time) { now_ += time; }
   // The writer is no longer new, and has come to `last`.

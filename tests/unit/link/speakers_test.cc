@@ -213,14 +213,14 @@ std::string FieldOf(const std::optional<FieldFault>& fault) { return fault ? fau
 
 TEST(EntryCheck, NamesTheFieldThatCannotBeBelieved) {
   EXPECT_EQ(FieldOf(FaultOf(Sound(), kSeven)), "");
-  EXPECT_EQ(FieldOf(FaultOf(Sound(), kNobody)), "");
+  EXPECT_EQ(FieldOf(FaultOf(Sound(), kNoVehicle)), "");
   EXPECT_EQ(FieldOf(FaultOf(Sound(), VehicleId{8})), "vehicle");
   RosterEntry entry = Sound();
   entry.epoch = kNoEpoch;
   EXPECT_EQ(FieldOf(FaultOf(entry, kSeven)), "world_epoch");
   entry = Sound();
-  entry.vehicle = kNobody;
-  EXPECT_EQ(FieldOf(FaultOf(entry, kNobody)), "vehicle");
+  entry.vehicle = kNoVehicle;
+  EXPECT_EQ(FieldOf(FaultOf(entry, kNoVehicle)), "vehicle");
   entry = Sound();
   entry.start_world.position_world.x = kNan;
   EXPECT_EQ(FieldOf(FaultOf(entry, kSeven)), "start_world.x_m");

@@ -28,9 +28,9 @@ class Unfit : public testing::Test {
   // What is said of these a second after they were found.
   std::vector<std::string> Lines(const std::vector<FoundEndpoint>& found) {
     for (const FoundEndpoint& one : found) unfit_.Add(one, seconds(5));
-    EXPECT_THAT(unfit_.Judge(own_, seconds(5) + milliseconds(999)), IsEmpty());
-    auto lines = unfit_.Judge(own_, seconds(6));
-    EXPECT_THAT(unfit_.Judge(own_, seconds(60)), IsEmpty());
+    EXPECT_THAT(unfit_.Check(own_, seconds(5) + milliseconds(999)), IsEmpty());
+    auto lines = unfit_.Check(own_, seconds(6));
+    EXPECT_THAT(unfit_.Check(own_, seconds(60)), IsEmpty());
     return lines;
   }
   static FoundEndpoint JoinReader() {
@@ -99,16 +99,16 @@ TEST_F(Unfit, OfThoseThatCameLongAgoFewAreKnown) {
   SteadyTime now = seconds(10);
   for (std::uint32_t vehicle = 1; vehicle <= 500; ++vehicle, now += seconds(1)) {
     for (int i = 0; i < 10; ++i) unfit_.Add(JoinWriter(), now);
-    EXPECT_THAT(unfit_.Judge(own_, now), IsEmpty());
+    EXPECT_THAT(unfit_.Check(own_, now), IsEmpty());
   }
   EXPECT_LE(unfit_.Known(), 150U);
   // A vehicle's other endpoints are still known, with eleven others in between.
   own_.push_back(Endpoint(false, "fleet/beacon", "main/*", 0));
   unfit_.Add(Endpoint(true, "fleet/beacon", "main/v5", 8), now);
   for (int i = 0; i < 110; ++i) unfit_.Add(JoinWriter(), now);
-  EXPECT_THAT(unfit_.Judge(own_, now += seconds(1)), IsEmpty());
+  EXPECT_THAT(unfit_.Check(own_, now += seconds(1)), IsEmpty());
   unfit_.Add(Endpoint(true, "fleet/beacon", "", 8), now);
-  EXPECT_THAT(unfit_.Judge(own_, now + seconds(1)), IsEmpty());
+  EXPECT_THAT(unfit_.Check(own_, now + seconds(1)), IsEmpty());
 }
 
 }  // namespace

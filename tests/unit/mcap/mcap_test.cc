@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Told {
+struct ReadBack {
   std::vector<std::string> data;
   std::vector<std::uint64_t> log_ns;
   std::string topic;
@@ -23,17 +23,17 @@ struct Told {
   ReadResult result;
 };
 
-Told ReadAll(std::string_view bytes) {
-  Told told;
-  told.result = McapReader::Read(
-      bytes, [&told](const Message& message, const Channel& channel, const Schema& schema) {
-        told.data.emplace_back(message.data);
-        told.log_ns.push_back(message.log_ns);
-        told.topic = channel.topic;
-        told.schema = schema.name;
+ReadBack ReadAll(std::string_view bytes) {
+  ReadBack read_back;
+  read_back.result = McapReader::Read(
+      bytes, [&read_back](const Message& message, const Channel& channel, const Schema& schema) {
+        read_back.data.emplace_back(message.data);
+        read_back.log_ns.push_back(message.log_ns);
+        read_back.topic = channel.topic;
+        read_back.schema = schema.name;
         return true;
       });
-  return told;
+  return read_back;
 }
 
 // A writer with one channel, its bytes, and a sink that can be made to fail.
@@ -72,14 +72,14 @@ TEST(Mcap, WhatWasWrittenIsReadInItsOrder) {
   Recorder recorder;
   for (std::uint32_t n = 1; n <= 1000; ++n) ASSERT_TRUE(recorder.Put(n));
   ASSERT_TRUE(recorder.writer.Close());
-  const Told told = ReadAll(recorder.bytes);
-  EXPECT_EQ(told.result.fault, "");
-  EXPECT_FALSE(told.result.cut_off);
-  ASSERT_EQ(told.data.size(), 1000U);
-  EXPECT_EQ(told.data.back(), "sample 1000");
-  EXPECT_EQ(told.log_ns.front(), 1U);
-  EXPECT_EQ(told.topic, "fleet/beacon");
-  EXPECT_EQ(told.schema, "T");
+  const ReadBack read_back = ReadAll(recorder.bytes);
+  EXPECT_EQ(read_back.result.fault, "");
+  EXPECT_FALSE(read_back.result.cut_off);
+  ASSERT_EQ(read_back.data.size(), 1000U);
+  EXPECT_EQ(read_back.data.back(), "sample 1000");
+  EXPECT_EQ(read_back.log_ns.front(), 1U);
+  EXPECT_EQ(read_back.topic, "fleet/beacon");
+  EXPECT_EQ(read_back.schema, "T");
 }
 
 TEST(Mcap, AFileCutOffAnywhereGivesAllThatWasFlushedBefore) {
@@ -92,12 +92,12 @@ TEST(Mcap, AFileCutOffAnywhereGivesAllThatWasFlushedBefore) {
   }
   const std::size_t data = recorder.bytes.size();
   for (std::size_t cut = flushed.front(); cut < data; ++cut) {
-    const Told told = ReadAll(std::string_view(recorder.bytes).substr(0, cut));
-    EXPECT_EQ(told.result.fault, "") << cut;
-    EXPECT_TRUE(told.result.cut_off);
+    const ReadBack read_back = ReadAll(std::string_view(recorder.bytes).substr(0, cut));
+    EXPECT_EQ(read_back.result.fault, "") << cut;
+    EXPECT_TRUE(read_back.result.cut_off);
     std::size_t whole = 0;
     while (whole + 1 < flushed.size() && flushed[whole + 1] <= cut) ++whole;
-    EXPECT_GE(told.data.size(), whole) << cut;
+    EXPECT_GE(read_back.data.size(), whole) << cut;
   }
 }
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <sstream>
 
-#include "services/qos/check.h"
+#include "services/qos/profile_check.h"
 #include "tests/unit/qos/qos_files.h"
 
 namespace giveway::qos {

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "services/qos/check.h"
+#include "services/qos/profile_check.h"
 #include "services/qos/profile_set.h"
 #include "services/qos/xml_tree.h"
 #include "tests/unit/qos/qos_files.h"

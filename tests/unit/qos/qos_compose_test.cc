@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "services/qos/check.h"
 #include "services/qos/compose.h"
+#include "services/qos/profile_check.h"
 #include "tests/unit/qos/qos_files.h"
 
 namespace giveway::qos {

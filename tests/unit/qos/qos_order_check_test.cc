@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
-#include "services/qos/check.h"
 #include "services/qos/order_check.h"
+#include "services/qos/profile_check.h"
 #include "tests/unit/qos/qos_files.h"
 
 namespace giveway::qos {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "services/qos/check.h"
+#include "services/qos/profile_check.h"
 #include "services/qos/profile_edit.h"
 #include "services/qos/profile_set.h"
 #include "tests/unit/qos/qos_files.h"

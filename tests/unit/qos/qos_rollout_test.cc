@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
-#include "services/qos/check.h"
 #include "services/qos/deployment.h"
+#include "services/qos/profile_check.h"
 #include "services/qos/request_offered.h"
 #include "services/qos/rollout.h"
 #include "tests/unit/qos/qos_files.h"

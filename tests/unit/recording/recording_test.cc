@@ -240,7 +240,7 @@ TEST(RecordingOptions, OnlyAVehicleThatCouldDriveIsUsable) {
     spoil(&options);
     return !WhyUnusable(options).empty();
   };
-  EXPECT_TRUE(refused([](VehicleOptions* o) { o->id = kNobody; }));
+  EXPECT_TRUE(refused([](VehicleOptions* o) { o->id = kNoVehicle; }));
   EXPECT_TRUE(refused([](VehicleOptions* o) { o->tick_period = Nanoseconds{0}; }));
   EXPECT_TRUE(refused([](VehicleOptions* o) { o->tick_period = Nanoseconds{-50'000'000}; }));
   EXPECT_TRUE(refused([](VehicleOptions* o) { o->route.count = kMaxWaypoints + 1; }));

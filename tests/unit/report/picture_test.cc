@@ -73,7 +73,7 @@ TEST(Picture, NumbersThatAreNotFiniteNeverReachIt) {
   track.truths[50].world_from_body.position_world.x = nan;
   track.truths[60].time_s = std::numeric_limits<double>::infinity();
   std::vector<WorldEvent> events;
-  for (const EventKind kind : {EventKind::kHalted, EventKind::kWentOn, EventKind::kContact,
+  for (const EventKind kind : {EventKind::kHalted, EventKind::kResumed, EventKind::kContact,
                                EventKind::kClosest, EventKind::kRemoved, EventKind::kVerdict}) {
     WorldEvent event = Event(kind, nan, 1);
     event.value = nan;
@@ -87,8 +87,8 @@ TEST(Picture, NumbersThatAreNotFiniteNeverReachIt) {
 
 TEST(Picture, ItSaysHowLongAVehicleHalted) {
   const std::vector<WorldEvent> events{Event(EventKind::kHalted, 7, 2),
-                                       Event(EventKind::kWentOn, 8, 1),
-                                       Event(EventKind::kWentOn, 10.1, 2)};
+                                       Event(EventKind::kResumed, 8, 1),
+                                       Event(EventKind::kResumed, 10.1, 2)};
   EXPECT_THAT(DrawRun(Crossing(), {}, events), HasSubstr(">2 halted 3.1 s<"));
 }
 
@@ -151,7 +151,7 @@ TEST(Picture, NorthIsUp) {
 
 TEST(Picture, ABoxIsDrawnAsABoxThatPointsItsWay) {
   Scenario scenario = Crossing();
-  VehicleProfile& profile = scenario.vehicles[0].profile;
+  RobotModel& profile = scenario.vehicles[0].profile;
   profile.shape = BodyShape::kBox;
   profile.box_half_m = {0.8, 0.2};
   profile.body_radius_m = Norm(profile.box_half_m);

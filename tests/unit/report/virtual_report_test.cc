@@ -47,7 +47,7 @@ TEST(VirtualReport, NamesWhoBrokeWhatWhen) {
   VirtualReport report = Failed();
   report.first_violations = {
       {7, 12.35, {"contact", Tick{247}, VehicleId{4}, VehicleId{9}}, "cruise"},
-      {99, 3, {"clearance", Tick{60}, VehicleId{2}, kNobody}, "obstacle"}};
+      {99, 3, {"clearance", Tick{60}, VehicleId{2}, kNoVehicle}, "obstacle"}};
   report.vehicles = 20;
   report.arrived = 18;
   const std::string text = ToText(report);

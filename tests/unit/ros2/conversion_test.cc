@@ -86,7 +86,7 @@ TEST(Conversion, WhatCannotBeShownIsFound) {
 }
 
 TEST(Conversion, ARangeIsInTheFrameOfItsSensorAndInfiniteWhereNothingAnswered) {
-  const VehicleProfile profile = PioneerP3dx();
+  const RobotModel profile = PioneerP3dx();
   const RangeReading echo{.kind = Echo::kEcho, .range_m = 1.25};
   const Range range = RangeOf(VehicleId{3}, profile, 5, echo, kStamp_ns);
   EXPECT_EQ(range.header.frame_id, "giveway_v3/ultrasonic_5");

@@ -150,7 +150,7 @@ TEST(View, TransformsThatDoNotChangeComeForANewVehicleAndEveryTenSeconds) {
 
 TEST(View, LeavesOutWhatHasNoIdOrCannotBeShown) {
   View view = MakeView();
-  view.Take(BeaconAt(kNobody, 1), At(0));
+  view.Take(BeaconAt(kNoVehicle, 1), At(0));
   view.Take(BeaconAt(VehicleId{3}, std::numeric_limits<double>::quiet_NaN()), At(0));
   EXPECT_TRUE(CollectAt(view, 0).messages.empty());
 }

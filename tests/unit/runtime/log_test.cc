@@ -54,7 +54,7 @@ TEST(Log, NamesAVehicleByTheIdThatTheWorldGave) {
   LogInfo("after");
   InitLog("vehicle", "text", "info");
   LogInfo("cruise");
-  SetLogVehicle(kNobody);
+  SetLogVehicle(kNoVehicle);
   LogInfo("over");
   FlushLog(std::chrono::seconds(5));
   const std::string lines = GetCapturedStderr();

@@ -24,7 +24,7 @@ TEST(HangSignal, TheFirstMakesTheLoopHangAndTheNextLetsItGo) {
 }
 
 TEST(Identity, IsReadFromTheProcessThatPublishesIt) {
-  const Identity before{kNobody, "010f45d2a3b1000001000000"};
+  const Identity before{kNoVehicle, "010f45d2a3b1000001000000"};
   const Identity after{VehicleId{4'000'000'000}, "010f45d2a3b1000001000000"};
   EXPECT_EQ(ParseIdentity(ToText(after)), after);
   PublishIdentity(before);

@@ -71,7 +71,7 @@ TEST(AdmissionPlaces, EveryAnswerSaysWhereTheBodyIsNow) {
   EXPECT_EQ(again.tick, now);
   EXPECT_EQ(again.counted, at.counted);
   fleet.Tick(10);
-  for (const RosterEntry& entry : fleet.admission.TellAll("")) {
+  for (const RosterEntry& entry : fleet.admission.InformAll("")) {
     EXPECT_EQ(entry.start_world, fleet.TheBody().world_from_body);
     EXPECT_EQ(entry.tick, fleet.run.Now());
   }

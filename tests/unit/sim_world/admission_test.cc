@@ -42,7 +42,7 @@ TEST(Admission, WhoFindsNoFreePlaceWaitsAndIsLetInWhenOneComesFree) {
     door.admission.Take(Ask(3));
     door.Tick(20);
   }
-  EXPECT_TRUE(door.admission.Told().contains(VehicleId{4}));
+  EXPECT_TRUE(door.admission.Informed().contains(VehicleId{4}));
   EXPECT_EQ(door.Count(EventKind::kJoined), 1U);
 }
 
@@ -55,7 +55,7 @@ TEST(Admission, WhoAsksNoMoreIsForgotten) {
   door.Tick(100);
   door.Leave(1);
   door.Tick(2);
-  EXPECT_EQ(door.admission.Told().size(), 1U);
+  EXPECT_EQ(door.admission.Informed().size(), 1U);
 }
 
 TEST(Admission, WhoLeavesIsGoneAtOnceAndItsIdAndPlaceAreFree) {
@@ -83,7 +83,7 @@ TEST(Admission, ARestartedVehicleGetsItsIdBackOnceTheOldOneIsSilentWhereItsBodyS
   EXPECT_TRUE(early.waiting);
   EXPECT_EQ(early.reason, "id 1 is taken by another session");
   int ticks = 0;
-  while (door.admission.Told().at(VehicleId{1}).session != Ask(9).session && ticks < 60) {
+  while (door.admission.Informed().at(VehicleId{1}).session != Ask(9).session && ticks < 60) {
     door.Tick();
     ++ticks;
   }
@@ -132,7 +132,7 @@ TEST(Admission, ASilentVehicleOfAnOpenFleetIsRemovedInTimeAndTheRunGoesOn) {
   door.Tick(22);
   EXPECT_EQ(door.Count(EventKind::kSilent), 1U);
   EXPECT_NE(door.run.BodyOf(VehicleId{1}), nullptr);
-  for (int i = 0; i < 45 && door.admission.Told().contains(VehicleId{1}); ++i) door.Tick();
+  for (int i = 0; i < 45 && door.admission.Informed().contains(VehicleId{1}); ++i) door.Tick();
   EXPECT_EQ(door.run.BodyOf(VehicleId{1}), nullptr);
   EXPECT_EQ(door.admission.TakeGone(), std::vector{VehicleId{1}});
   door.Tick();
@@ -251,18 +251,18 @@ TEST(Admission, ARestoredWorldKnowsItsSessionsAndWhereTheyStandOnceTheyStand) {
   Door after(OpenScenario(), kNext);
   ASSERT_TRUE(after.admission.Restore(before.admission.Save(5)));
   EXPECT_EQ(after.admission.Expected(), (std::vector{VehicleId{1}, VehicleId{2}}));
-  EXPECT_TRUE(after.admission.Told().empty());
+  EXPECT_TRUE(after.admission.Informed().empty());
   EXPECT_EQ(after.Join(Ask(1, 1)).epoch, kNoEpoch);  // it still rolls: no answer yet
   after.Tick(40);
-  const auto& told = after.admission.Told();
-  ASSERT_TRUE(told.contains(VehicleId{1}));
-  const RosterEntry& entry = told.at(VehicleId{1});
+  const auto& informed = after.admission.Informed();
+  ASSERT_TRUE(informed.contains(VehicleId{1}));
+  const RosterEntry& entry = informed.at(VehicleId{1});
   EXPECT_EQ(entry.epoch, kNext);
   EXPECT_EQ(entry.spawn, 1U);
   EXPECT_EQ(entry.start_world, after.run.BodyOf(VehicleId{1})->world_from_body);
   EXPECT_GT(entry.start_world.position_world.x,
             before.run.BodyOf(VehicleId{1})->world_from_body.position_world.x);
-  EXPECT_FALSE(told.contains(VehicleId{2}));
+  EXPECT_FALSE(informed.contains(VehicleId{2}));
   EXPECT_DOUBLE_EQ(after.run.TimeSeconds(), before.run.TimeSeconds());  // it waits
 }
 

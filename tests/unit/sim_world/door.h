@@ -12,7 +12,7 @@ namespace giveway::sim {
 
 inline VehicleOptions SpawnAt(double x_m) {
   VehicleOptions options = VehicleAt(0, {{x_m, 0}, 0});
-  options.id = kNobody;
+  options.id = kNoVehicle;
   return options;
 }
 
@@ -46,7 +46,7 @@ class Door {
       answers.clear();
       for (const RosterEntry& entry : admission.Answer()) answers.push_back(entry);
       std::vector<MotorCommand> commands;
-      for (const auto& [vehicle, entry] : admission.Told()) {
+      for (const auto& [vehicle, entry] : admission.Informed()) {
         if (dead.contains(vehicle)) continue;
         commands.push_back(Drive(Number(vehicle), run.Now(), speed_rad_s, speed_rad_s));
         commands.back().epoch = epoch_;

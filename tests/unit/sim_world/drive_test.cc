@@ -10,7 +10,7 @@
 namespace giveway::sim {
 namespace {
 
-const VehicleProfile kP3dx = PioneerP3dx();
+const RobotModel kP3dx = PioneerP3dx();
 const double kSpeedUp = kP3dx.acceleration_m_s2 / kP3dx.drive.wheel_radius_m * kDt_s;
 const double kSlowDown = kP3dx.deceleration_m_s2 / kP3dx.drive.wheel_radius_m * kDt_s;
 
@@ -77,7 +77,7 @@ TEST(Drive, NoCommandEverBreaksTheCapsOrTheAcceleration) {
 
 // Wheels that speed up faster than they slow down could overshoot the turn cap in between.
 TEST(Drive, TheCapsWinOverTheAcceleration) {
-  VehicleProfile eager = kP3dx;
+  RobotModel eager = kP3dx;
   eager.acceleration_m_s2 = 3;
   Random random(12);
   WheelSpeeds wheels;

@@ -48,12 +48,12 @@ TEST(Expectation, ABoundIsKeptOrNamedWithTheFigure) {
 TEST(Expectation, AHaltCanBeAskedForByItsCause) {
   Expectation expect;
   expect.any_halted = true;
-  expect.halted_for = Rule::kDeaf;
+  expect.halted_for = Rule::kUnidentifiedMotion;
   Outcome outcome;
   EXPECT_EQ(Unmet(expect, outcome), "halted_for: expected deaf, got nothing");
   outcome.halted_for = {Rule::kGiveWay, Rule::kPeerLost};
   EXPECT_EQ(Unmet(expect, outcome), "halted_for: expected deaf, got give_way peer_lost");
-  outcome.halted_for = {Rule::kGiveWay, Rule::kDeaf};
+  outcome.halted_for = {Rule::kGiveWay, Rule::kUnidentifiedMotion};
   EXPECT_EQ(Unmet(expect, outcome), "");
 }
 

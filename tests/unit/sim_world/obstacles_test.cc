@@ -88,7 +88,7 @@ TEST(Obstacle, MeetingAVehicleIsAContactWithNobodyThatSaysWhat) {
   while (world.NewContacts().empty()) world.Advance(true);
   const Contact contact = world.NewContacts().front();
   EXPECT_EQ(contact.vehicle, VehicleId{1});
-  EXPECT_EQ(contact.other, kNobody);
+  EXPECT_EQ(contact.other, kNoVehicle);
   EXPECT_EQ(contact.touched, Touched::kObstacle);
   EXPECT_NEAR(contact.other_position_world.x, 0.45, 1e-5);
 }

@@ -176,7 +176,7 @@ TEST(PoseFixFault, OfSomeHitsSome) {
 
 // One leg of Borenstein's bidirectional square path: unequal wheels bend a straight path.
 TEST(WheelErrors, UnequalWheelsBendAStraightWay) {
-  VehicleProfile profile = PioneerP3dx();
+  RobotModel profile = PioneerP3dx();
   profile.wheel_error.diameter = 0.02;
   const Rolled rolled = Roll(profile, {4, 4}, Random(1));
   EXPECT_EQ(rolled.encoders, (WheelSpeeds{4, 4}));
@@ -187,7 +187,7 @@ TEST(WheelErrors, UnequalWheelsBendAStraightWay) {
 }
 
 TEST(WheelErrors, ALongerAxleTurnsLess) {
-  VehicleProfile profile = PioneerP3dx();
+  RobotModel profile = PioneerP3dx();
   profile.wheel_error.axle = 0.1;
   const Twist said = TwistFromWheels(profile.drive, {3, 4});
   const Twist twist = TwistFromWheels(profile.drive, Roll(profile, {3, 4}, Random(1)).ground);
@@ -196,7 +196,7 @@ TEST(WheelErrors, ALongerAxleTurnsLess) {
 }
 
 TEST(WheelErrors, DrawTheSameSlipAsWithoutThem) {
-  VehicleProfile profile = PioneerP3dx();
+  RobotModel profile = PioneerP3dx();
   profile.wheel_slip = 0.1;
   profile.encoder_noise = 0.1;
   const Rolled plain = Roll(profile, {3, 4}, Random(1));

@@ -113,15 +113,15 @@ std::string SomeBytes() {
   run.Advance({});
   return ToBytes({.scenario = 42,
                   .run = run.Save(),
-                  .seats = {{.vehicle = VehicleId{1}, .taken = true, .session = {1, 2, 3, 4}}}});
+                  .slots = {{.vehicle = VehicleId{1}, .taken = true, .session = {1, 2, 3, 4}}}});
 }
 
 TEST(RunCheckpoint, KeepsWhatItWasGiven) {
   const auto read = std::get<FleetCheckpoint>(FromBytes(SomeBytes()));
   EXPECT_EQ(read.scenario, 42U);
   EXPECT_EQ(read.run.epoch, kEpoch);
-  ASSERT_EQ(read.seats.size(), 1U);
-  EXPECT_EQ(read.seats[0].session, (SessionId{1, 2, 3, 4}));
+  ASSERT_EQ(read.slots.size(), 1U);
+  EXPECT_EQ(read.slots[0].session, (SessionId{1, 2, 3, 4}));
   EXPECT_EQ(ToBytes(read), SomeBytes());
 }
 

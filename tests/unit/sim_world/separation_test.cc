@@ -18,27 +18,27 @@ namespace {
 class Crowd {
  public:
   explicit Crowd(std::uint64_t seed) : random_(seed) {
-    things_.bodies = 8;
-    for (std::uint32_t i = 0; i < things_.bodies; ++i) {
+    collidables_.bodies = 8;
+    for (std::uint32_t i = 0; i < collidables_.bodies; ++i) {
       Body& body = bodies_.emplace_back();
       body.vehicle = VehicleId{i + 1};
       body.present = true;
       body.world_from_body = {{0.7 * i + random_.Uniform(-0.05, 0.05), random_.Uniform(-0.2, 0.2)},
                               random_.Uniform(-kPi, kPi)};
-      things_.motions.push_back(StandingAt(body.profile, body.world_from_body));
+      collidables_.motions.push_back(StandingAt(body.profile, body.world_from_body));
       for (std::uint32_t j = 0; j < i; ++j) pairs_.push_back({.a = i, .b = j});
     }
   }
 
   void Advance() {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      Motion& motion = things_.motions[i];
+      Motion& motion = collidables_.motions[i];
       motion.start_world = bodies_[i].world_from_body;
       motion.twist = {random_.Uniform(-1, 1), random_.Uniform(-1.7, 1.7)};
       motion.stop_s = random_.Uniform(0, 1) < 0.3 ? random_.Uniform(0, kDt_s) : kDt_s;
       bodies_[i].world_from_body = PoseAt(motion, kDt_s);
     }
-    separation_.Observe(bodies_, things_, pairs_, kDt_s);
+    separation_.Observe(bodies_, collidables_, pairs_, kDt_s);
   }
 
   double ClosestOfAll() const { return separation_.Closest()->gap_m; }
@@ -51,7 +51,7 @@ class Crowd {
  private:
   Random random_;
   std::vector<Body> bodies_;
-  Things things_;
+  Collidables collidables_;
   std::vector<NearPair> pairs_;
   Separation separation_{true};
 };

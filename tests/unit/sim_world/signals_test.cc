@@ -1,11 +1,10 @@
 // Signal heads: what the plan shows when, which head sends when, what a fault does to it, and
 // whether two plans show green at the same time.
-#include "sim_world/run/signals.h"
-
 #include <gtest/gtest.h>
 
 #include "services/types/math/random.h"
 #include "services/types/signal_plan.h"
+#include "sim_world/run/traffic_lights.h"
 
 namespace giveway::sim {
 namespace {

@@ -65,7 +65,7 @@ TEST(Allocation, ABusyWorldStopsAllocatingOnceItHasGrown) {
   Scenario scenario;
   for (std::uint32_t id = 1; id <= 40; ++id) {
     scenario.vehicles.push_back(VehicleAt(id, {{0.8 * (id % 8), 0.8 * (id / 8)}, 0.1 * id}));
-    VehicleProfile& profile = scenario.vehicles.back().profile;
+    RobotModel& profile = scenario.vehicles.back().profile;
     profile.wheel_slip = 0.02;
     if (id % 2 == 0) {
       profile.shape = BodyShape::kBox;

@@ -78,7 +78,7 @@ TEST(Crosstalk, AnythingInTheWayBlocksIt) {
 std::vector<double> RangesOfFirst(SonarTier tier, std::uint32_t other_id, double gap_m,
                                   std::span<const Wall> walls = {}) {
   SonarModel model{.tier = tier, .noise = 0, .drop_out = 0};
-  VehicleProfile profile = PioneerP3dx();
+  RobotModel profile = PioneerP3dx();
   for (SensorMount& mount : profile.sonar) mount.bearing_rad = mount.position_body.x > 0 ? 0 : kPi;
   const SonarRing ring(profile);
   Scene scene(walls);

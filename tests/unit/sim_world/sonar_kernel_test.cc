@@ -128,7 +128,7 @@ TEST(SonarKernel, TheFastestWidthIsOneThisCpuHas) {
 // Ten times more objects than a list holds, in a scene: nothing is lost between lists or in a grid.
 TEST_P(SonarKernelOf, ACrowdedSceneIsHeardAsOneByOne) {
   Random random(43);
-  VehicleProfile profile = PioneerP3dx();
+  RobotModel profile = PioneerP3dx();
   for (SensorMount& mount : profile.sonar) mount.enabled = true;
   const SonarRing ring(profile, GetParam());
   for (int round = 0; round < 20; ++round) {
@@ -158,7 +158,7 @@ TEST_P(SonarKernelOf, ACrowdedSceneIsHeardAsOneByOne) {
 
 TEST(SonarRing, EqualProfilesShareOneRing) {
   SonarRings rings;
-  VehicleProfile other = PioneerP3dx();
+  RobotModel other = PioneerP3dx();
   other.sonar[3].bearing_rad += 0.01;
   const SonarRing& first = rings.Of(PioneerP3dx());
   EXPECT_NE(&rings.Of(other), &first);

@@ -207,7 +207,7 @@ bool IsCloseCall(View view, const Placement& placed) {
 }
 
 TEST(SonarOracle, AgreesOnRandomPlacementsOfDiscsBoxesAndWalls) {
-  VehicleProfile profile = PioneerP3dx();
+  RobotModel profile = PioneerP3dx();
   for (SensorMount& mount : profile.sonar) mount.enabled = true;
   const SonarRing ring(profile);
   Random random(51);

@@ -18,8 +18,8 @@ const bool kSeeded = setenv("RC_PARAMS", "seed=21 max_success=1000", 0) == 0;
 
 bool Same(double a_m, double b_m) { return a_m == b_m || std::abs(a_m - b_m) < 1e-9; }
 
-VehicleProfile AllTransducers() {
-  VehicleProfile profile = PioneerP3dx();
+RobotModel AllTransducers() {
+  RobotModel profile = PioneerP3dx();
   for (SensorMount& mount : profile.sonar) mount.enabled = true;
   return profile;
 }
@@ -134,7 +134,7 @@ TEST(SonarProperty, ARangeIsNeverNegativeNorBeyondTheSensorNorNearerThanAnything
 
 // No cone covers all directions, but sixteen with one apex together do.
 TEST(SonarProperty, ConesThatTogetherLookEverywhereHearTheTrueNearestPoint) {
-  VehicleProfile profile = AllTransducers();
+  RobotModel profile = AllTransducers();
   profile.sonar_half_angle_rad = 0.2;  // 16 of 0.39 rad overlap
   profile.sonar_max_range_m = 20;
   for (std::size_t i = 0; i < kSensorCount; ++i) {

@@ -188,7 +188,7 @@ TEST(SonarRing, TheNearestOfSeveralThingsIsReported) {
 }
 
 TEST(SonarRing, AMirroredSceneGivesMirroredReadingsToTheBit) {
-  VehicleProfile profile = PioneerP3dx();
+  RobotModel profile = PioneerP3dx();
   for (SensorMount& mount : profile.sonar) mount.enabled = true;
   const SonarRing ring(profile);
   Random random(24);

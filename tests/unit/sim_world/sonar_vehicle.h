@@ -10,8 +10,8 @@ namespace giveway::sim {
 
 inline constexpr Nanoseconds kTickPeriod{50'000'000};
 
-inline VehicleProfile WithAllTransducers() {
-  VehicleProfile profile = PioneerP3dx();
+inline RobotModel WithAllTransducers() {
+  RobotModel profile = PioneerP3dx();
   for (SensorMount& mount : profile.sonar) mount.enabled = true;
   return profile;
 }

@@ -115,7 +115,7 @@ TEST(WorldBodies, SlipMovesTheBodyAndNoiseTheEncodersOnly) {
 }
 
 TEST(WorldBodies, SlipAndNoiseHaveTheStatedDeviations) {
-  VehicleProfile profile = PioneerP3dx();
+  RobotModel profile = PioneerP3dx();
   profile.wheel_slip = 0.05;
   profile.encoder_noise = 0.02;
   double slip = 0;

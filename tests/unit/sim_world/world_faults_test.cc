@@ -243,7 +243,7 @@ TEST(SonarFault, OfAllMeetsEverybody) {
   EXPECT_FALSE(SameReadings(pair.Faulty(1), pair.Sound(1)));
   EXPECT_FALSE(SameReadings(pair.Faulty(0), pair.Faulty(1)));
   ASSERT_EQ(pair.Of(EventKind::kFaultBegan).size(), 1U);
-  EXPECT_EQ(pair.Of(EventKind::kFaultBegan)[0].vehicle, kNobody);
+  EXPECT_EQ(pair.Of(EventKind::kFaultBegan)[0].vehicle, kNoVehicle);
 }
 
 TEST(SonarFault, RepeatsFromItsSeedRuleAndNumber) {

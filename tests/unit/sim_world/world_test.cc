@@ -43,14 +43,14 @@ TEST(World, EncodersCountWhatTheyTell) {
   Scenario scenario = Facing(0.6);
   scenario.vehicles[0].profile.encoder_noise = 0.1;
   World world = WorldOf(scenario);
-  WheelAngles told;
+  WheelAngles expected;
   for (int i = 0; i < 200; ++i) {
     DriveAll(&world, 2, 3 * Cos(i * 0.05), 1);
-    told = CountOn(told, world.Bodies()[0].encoders, 0.05);
-    ASSERT_EQ(world.Bodies()[0].counted, told) << i;
+    expected = CountOn(expected, world.Bodies()[0].encoders, 0.05);
+    ASSERT_EQ(world.Bodies()[0].counted, expected) << i;
   }
   EXPECT_GT(world.Contacts(), 0U);  // cut ticks were among them
-  EXPECT_NE(told, WheelAngles{});
+  EXPECT_NE(expected, WheelAngles{});
   world.Remove(VehicleId{1});
   world.Join(VehicleId{1});
   EXPECT_EQ(world.Bodies()[0].counted, WheelAngles{});
@@ -113,7 +113,7 @@ TEST(World, AWallIsAContactWithNobody) {
   }
   ASSERT_EQ(contacts.size(), 1U);
   EXPECT_EQ(contacts[0].vehicle, VehicleId{1});
-  EXPECT_EQ(contacts[0].other, kNobody);
+  EXPECT_EQ(contacts[0].other, kNoVehicle);
   EXPECT_EQ(contacts[0].other_position_world, (Vec2{0.3, 0}));
   EXPECT_NEAR(X(world, 0), 0.05, kTouch_m);
 }

@@ -50,9 +50,9 @@ class Fate {
     radar.detections[0] = {
         .range_m = random_.Uniform(0.5, 5), .bearing_rad = 0.1, .range_rate_m_s = -0.2};
     if (Chance(0.3)) inputs.radar = &radar;
-    said_ = brain->Step(inputs);
+    outputs_ = brain->Step(inputs);
   }
-  const Outputs& Said() const { return said_; }
+  const Outputs& LastOutputs() const { return outputs_; }
 
  private:
   bool Chance(double share) { return random_.Uniform(0, 1) < share; }
@@ -62,7 +62,7 @@ class Fate {
   WheelAngles counted_;
   std::vector<ReceivedBeacon> heard_;
   std::vector<QosEvent> events_;
-  Outputs said_;
+  Outputs outputs_;
 };
 
 class BrainStateOfSeed : public testing::TestWithParam<std::uint32_t> {};
@@ -95,8 +95,8 @@ TEST_P(BrainStateOfSeed, IsTheSameBrainAfterwards) {
     same.Lead(&other, tick);
     ASSERT_EQ(other.Hash(), brain.Hash());
     ASSERT_EQ(BytesOf(other.State()), BytesOf(brain.State()));
-    ASSERT_EQ(same.Said().command.target, fate.Said().command.target);
-    ASSERT_EQ(same.Said().command.decision, fate.Said().command.decision);
+    ASSERT_EQ(same.LastOutputs().command.target, fate.LastOutputs().command.target);
+    ASSERT_EQ(same.LastOutputs().command.decision, fate.LastOutputs().command.decision);
   }
 }
 

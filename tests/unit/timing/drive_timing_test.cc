@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "services/types/profile.h"
+#include "services/types/robot_model.h"
 
 namespace giveway {
 namespace {
@@ -75,7 +75,7 @@ TEST_F(DriveTimingTest, MeasuresAReactionUntilTheWheelsObey) {
   EXPECT_FALSE(Turn(Obstacle(9), 0, 1.0));
   EXPECT_EQ(Of(DriveFigure::kReaction).count, 1U);
   EXPECT_EQ(Of(DriveFigure::kReaction).max, 200'000U);  // ticks 9 to 13
-  EXPECT_NEAR(Of(DriveFigure::kReactionWay).max, (3 * 0.4 + 0.37) * 0.05 * 1e6, 2);
+  EXPECT_NEAR(Of(DriveFigure::kReactionDistance).max, (3 * 0.4 + 0.37) * 0.05 * 1e6, 2);
   const auto margin = timing_.Figures().narrowest;
   ASSERT_TRUE(margin);
   EXPECT_EQ(margin->tick, Tick{11});

@@ -99,8 +99,8 @@ TEST(PoseCovariance, ThatCannotBeIsNoNegativeRoot) {
   EXPECT_EQ(SigmaAlong({.xx_m2 = 0.01, .xy_m2 = -1, .yy_m2 = 0.01}, {Sqrt(0.5), Sqrt(0.5)}), 0);
 }
 
-TEST(KnownHeading, FollowsEveryChangeOfTheHeading) {
-  KnownHeading known;
+TEST(CachedHeading, FollowsEveryChangeOfTheHeading) {
+  CachedHeading known;
   for (const double heading_rad : {0.0, 0.3, 0.3, -2.0, kPi, 0.0, -0.0}) {
     const Pose pose{{1, 2}, heading_rad};
     known.Follow(pose);
@@ -109,8 +109,8 @@ TEST(KnownHeading, FollowsEveryChangeOfTheHeading) {
   }
 }
 
-TEST(KnownBearing, IsTheHeadingAlongWhateverDirectionIsAskedFor) {
-  KnownBearing known;
+TEST(CachedBearing, IsTheHeadingAlongWhateverDirectionIsAskedFor) {
+  CachedBearing known;
   for (const Vec2 direction : {Vec2{1, 0}, {0, 1}, {0, 1}, {0, -1}, {-1, 0}, {0.6, 0.8}, {1, 0}}) {
     EXPECT_EQ(known.Of(direction), Atan2(direction.y, direction.x))
         << direction.x << ' ' << direction.y;

@@ -9,10 +9,10 @@ namespace giveway {
 namespace {
 
 constexpr VehicleId kOwn{1};
-constexpr OrderKey kOwnKey{.speed_bucket = 6, .vehicle = kOwn};
+constexpr PriorityKey kOwnKey{.speed_bucket = 6, .vehicle = kOwn};
 
 // The acting priority of a vehicle that has received these beacons.
-OrderKey After(const std::vector<Beacon>& beacons) {
+PriorityKey After(const std::vector<Beacon>& beacons) {
   PeerTable peers;
   BeaconCounters counters;
   TrustCounters trust;

@@ -43,16 +43,16 @@ Beacon Leader(std::uint32_t tick, double x_m, double speed_m_s) {
   return beacon;
 }
 
-// Drives with the beacons that `say` gives for each tick, until commanded to stop, for 20 s at
-// most.
-template <typename Say>
-Outputs DriveUntilStopped(BrainBench* bench, Say say) {
+// Drives with the beacons that `beacons_at` gives for each tick, until commanded to stop, for 20 s
+// at most.
+template <typename BeaconsAt>
+Outputs DriveUntilStopped(BrainBench* bench, BeaconsAt beacons_at) {
   Outputs out;
   for (int i = 0; i < 400; ++i) {
     RangeScan scan = ClearScan(0);
     scan.wheels = Rolling(kCruise_m_s);
     const std::uint32_t heard = bench->NextTick() - 1;
-    out = bench->Step(scan, heard == 0 ? std::vector<Beacon>{} : say(heard));
+    out = bench->Step(scan, heard == 0 ? std::vector<Beacon>{} : beacons_at(heard));
     if (out.command.target.left_rad_s <= 0) break;
   }
   return out;

@@ -90,9 +90,9 @@ TEST(Claim, HoldsWhateverThePeerDoesBeforeItStands) {
     // The claim holds the whole body: its centre stays a body's radius inside. In a million draws
     // the worst leaves it by 1.3 mm, and every vehicle keeps kClearance_m, 50 mm, from it.
     centre.radius_m -= beacon.body_radius_m - 2e-3;
-    const Twist told = TwistFromWheels(beacon.drive, beacon.wheels);
-    const double beside_m_s = told.turn_rad_s * beacon.drive.axle_m / 2;
-    Rims rims{told.forward_m_s - beside_m_s, told.forward_m_s + beside_m_s};
+    const Twist stated = TwistFromWheels(beacon.drive, beacon.wheels);
+    const double beside_m_s = stated.turn_rad_s * beacon.drive.axle_m / 2;
+    Rims rims{stated.forward_m_s - beside_m_s, stated.forward_m_s + beside_m_s};
     const Twist wanted{random.Uniform(0, beacon.cruise_m_s),
                        random.Uniform(-kTurnWhileDriving_rad_s, kTurnWhileDriving_rad_s)};
     Pose pose = beacon.world_from_body;
@@ -101,8 +101,8 @@ TEST(Claim, HoldsWhateverThePeerDoesBeforeItStands) {
       if (t >= unknown_s + kReaction_s) rims.Chase(Twist{}, beacon, kStep_s);
       pose = AdvanceArc(pose, rims.Moves(beacon), kStep_s);
       ASSERT_TRUE(Holds(centre, pose.position_world))
-          << "case " << number << " at " << t << " s of " << told.forward_m_s << " m/s, "
-          << told.turn_rad_s << " rad/s, brakes " << beacon.deceleration_m_s2 << ", speeds up "
+          << "case " << number << " at " << t << " s of " << stated.forward_m_s << " m/s, "
+          << stated.turn_rad_s << " rad/s, brakes " << beacon.deceleration_m_s2 << ", speeds up "
           << beacon.acceleration_m_s2 << ", unknown " << unknown_s << " s";
     }
   }

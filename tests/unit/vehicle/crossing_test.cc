@@ -60,7 +60,7 @@ TEST(CrossingOnce, WhenThePeerDiesTheOtherStopsAndGoesOnOnceTheWayIsClear) {
 int DecisionsOf(std::size_t index, const Scenario& scenario) {
   sim::VirtualFleet fleet(scenario);
   int decisions = 0;
-  while (fleet.Advance()) decisions += fleet.Said(index).decision_changed ? 1 : 0;
+  while (fleet.Advance()) decisions += fleet.OutputsOf(index).decision_changed ? 1 : 0;
   return decisions;
 }
 

@@ -110,7 +110,7 @@ TEST(Decide, AMovingEchoWithoutABeaconIsSensorOnlyAndStops) {
     test::SetEcho(&scan, 1, 1.1 - 0.03 * i);  // closes at 0.6 m/s while this vehicle stands
     out = bench.Step(scan);
   }
-  EXPECT_EQ(out.command.decision.rule, Rule::kDeaf);
+  EXPECT_EQ(out.command.decision.rule, Rule::kUnidentifiedMotion);
   EXPECT_EQ(out.command.decision.mode, Mode::kSensorOnly);
   EXPECT_EQ(out.command.decision.sensor, 1);
   EXPECT_EQ(out.command.target, WheelSpeeds{});
@@ -169,7 +169,7 @@ TEST(Decide, TheFasterGivesWayToNobody) {
   BrainBench bench(test::DefaultOptions());
   bench.Step(Driving(0.3));
   const Outputs out = bench.Step(Driving(0.3), {Crossing(1, 0.2, 2)});
-  EXPECT_EQ(out.beacon.gives_way_to, kNobody);
+  EXPECT_EQ(out.beacon.gives_way_to, kNoVehicle);
 }
 
 constexpr WheelSpeeds kCreeping = {0.3, 0.3};  // 3 cm/s
@@ -192,7 +192,7 @@ Outputs DriveUpTo(BrainBench* bench, double peer_cruise_m_s, VehicleId peer_give
 
 TEST(Decide, TheSlowerStopsBeforeTheConflict) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
-  const Outputs out = DriveUpTo(&bench, 0.4, kNobody);
+  const Outputs out = DriveUpTo(&bench, 0.4, kNoVehicle);
   EXPECT_EQ(out.command.decision.rule, Rule::kGiveWay);
   EXPECT_EQ(out.command.decision.peer, VehicleId{2});
   EXPECT_LT(out.beacon.world_from_body.position_world.x, 3.3 - 0.075);
@@ -201,7 +201,7 @@ TEST(Decide, TheSlowerStopsBeforeTheConflict) {
 TEST(Decide, TheFirstInOrderStopsToo) {
   SCOPED_TRACE("where the peer has not said that it gives way");
   BrainBench bench(test::OptionsWithoutUltrasonics());
-  const Outputs out = DriveUpTo(&bench, 0.2, kNobody, kCreeping);
+  const Outputs out = DriveUpTo(&bench, 0.2, kNoVehicle, kCreeping);
   EXPECT_EQ(out.command.decision.rule, Rule::kNotGranted);
   EXPECT_LT(out.beacon.world_from_body.position_world.x, 3.4 - 0.075);
 }
@@ -221,13 +221,13 @@ TEST(Decide, AGrantToSomebodyElseIsNone) {
 
 TEST(Decide, WhoeverStandsAndComesLaterIsABodyAndNotAPath) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
-  const Outputs out = DriveUpTo(&bench, 0.2, kNobody);
+  const Outputs out = DriveUpTo(&bench, 0.2, kNoVehicle);
   EXPECT_GT(out.beacon.world_from_body.position_world.x, 4.7);
 }
 
 TEST(Decide, AStopOnceBegunIsNotTakenBackAsTheVehicleSlows) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
-  DriveUpTo(&bench, 0.4, kNobody);
+  DriveUpTo(&bench, 0.4, kNoVehicle);
   for (double speed = 0.27; speed >= 0; speed -= 0.03) {
     Beacon beacon = Crossing(bench.NextTick() - 1, 0.4, 1.2);
     beacon.wheels = {};
@@ -239,7 +239,7 @@ TEST(Decide, AStopOnceBegunIsNotTakenBackAsTheVehicleSlows) {
 // The path no longer conflicts, but the peer backs towards the one that waits for it.
 TEST(Decide, AnEncounterIsNotOverWhileThePeerStillComesNearer) {
   BrainBench bench(test::DefaultOptions());
-  DriveUpTo(&bench, 0.4, kNobody);
+  DriveUpTo(&bench, 0.4, kNoVehicle);
   Beacon beacon = Crossing(bench.NextTick() - 1, 0.4, 0.8);
   beacon.world_from_body.heading_rad = -kPi / 2;
   beacon.wheels = {-2, -2};
@@ -258,7 +258,7 @@ TEST(Decide, APeersOwnSizeDecidesHowMuchRoomItNeeds) {
     bench.Step(Driving(0));
     Beacon beacon = BeaconOf(2, 1, {.position_world = {4.5, 2.0}, .heading_rad = kPi}, 0.4);
     beacon.body_radius_m = radius_m;
-    const VehicleId expected = radius_m > 1 ? VehicleId{2} : kNobody;
+    const VehicleId expected = radius_m > 1 ? VehicleId{2} : kNoVehicle;
     EXPECT_EQ(bench.Step(Driving(0), {beacon}).beacon.gives_way_to, expected) << radius_m;
   }
 }
@@ -268,7 +268,7 @@ TEST(Decide, AConflictBeyondTheGoalIsNone) {
   options.goal.at_world = {2, 0};
   BrainBench bench(options);
   bench.Step(Driving(0.3));
-  EXPECT_EQ(bench.Step(Driving(0.3), {Crossing(1, 0.4, 3)}).beacon.gives_way_to, kNobody);
+  EXPECT_EQ(bench.Step(Driving(0.3), {Crossing(1, 0.4, 3)}).beacon.gives_way_to, kNoVehicle);
 }
 
 // Sensor 2 hears a wall at 0.8 m; the faster peer is 3 m away in the same direction.

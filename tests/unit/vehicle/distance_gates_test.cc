@@ -19,7 +19,7 @@ double DrivenBeforeGivingWay(const Scenario& scenario) {
   sim::VirtualFleet fleet(scenario);
   const Vec2 from = scenario.vehicles[1].start_world.position_world;
   while (fleet.Advance()) {
-    if (fleet.Said(1).command.decision.rule != Rule::kGiveWay) continue;
+    if (fleet.OutputsOf(1).command.decision.rule != Rule::kGiveWay) continue;
     return Norm(fleet.World().Truths()[1].world_from_body.position_world - from);
   }
   return 1e9;

@@ -14,7 +14,7 @@ namespace {
 bool IsOfBody(test::Onlooker* onlooker, std::size_t sensor, double range_m, Vec2 centre) {
   onlooker->Hear(sensor, range_m);
   Peer peer = test::PeerAt({centre, 0});
-  return onlooker->LookAt(&peer).explains != 0;
+  return onlooker->RelatePeer(&peer).explains != 0;
 }
 
 struct Placed {
@@ -24,7 +24,7 @@ struct Placed {
   Vec2 centre;
 };
 
-Placed Anywhere(const VehicleProfile& profile, Random* random) {
+Placed Anywhere(const RobotModel& profile, Random* random) {
   Placed placed;
   placed.sensor = random->Next() % kSensorCount;
   placed.off_rad = random->Uniform(0, kPi);
@@ -41,7 +41,7 @@ Placed Anywhere(const VehicleProfile& profile, Random* random) {
 // behind the body's nearest point that it may be of any of it.
 TEST(Echoes, AreOfABodyWhereItIsAndOfNoneElsewhere) {
   test::Onlooker onlooker;
-  const VehicleProfile profile = test::DefaultOptions().profile;
+  const RobotModel profile = test::DefaultOptions().profile;
   const double radius_m = test::BeaconOf(2, 1, {}).body_radius_m;
   Random random(5);
   int explained = 0;
@@ -63,7 +63,7 @@ TEST(Echoes, AreOfABodyWhereItIsAndOfNoneElsewhere) {
 
 TEST(Echoes, BeforeTheBodyByMoreThanIsUnsureAreNotOfIt) {
   test::Onlooker onlooker;
-  const VehicleProfile profile = test::DefaultOptions().profile;
+  const RobotModel profile = test::DefaultOptions().profile;
   const double radius_m = test::BeaconOf(2, 1, {}).body_radius_m;
   Random random(6);
   for (int i = 0; i < 5000; ++i) {

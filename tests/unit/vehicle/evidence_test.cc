@@ -51,9 +51,9 @@ TEST(Evidence, TellsTheGapToThePeerThatIsGivenWayTo) {
   BrainBench bench(options);
   // From the right, faster, on a crossing path.
   const auto beacon = [](std::uint32_t tick) {
-    Beacon told = BeaconOf(2, tick, Pose{{1.2, -1.2}, kPi / 2}, 0.5);
-    told.wheels = WheelsFromTwist(told.drive, {0.3, 0});
-    return told;
+    Beacon slow = BeaconOf(2, tick, Pose{{1.2, -1.2}, kPi / 2}, 0.5);
+    slow.wheels = WheelsFromTwist(slow.drive, {0.3, 0});
+    return slow;
   };
   for (std::uint32_t tick = 1; tick < 40; ++tick) {
     const Outputs said = bench.Step(RollingScan(0.3), {beacon(tick)});

@@ -172,7 +172,7 @@ TEST(NoisySonar, AWallDroveUpToDoesNotMoveByItself) {
         test::SetEcho(&scan, 4, range + random.Gaussian(options.sonar_noise * range));
       }
       const Outputs out = bench.StepAsFired(scan);
-      EXPECT_NE(out.command.decision.rule, Rule::kDeaf) << i;
+      EXPECT_NE(out.command.decision.rule, Rule::kUnidentifiedMotion) << i;
       scan.readings = bench.LastReadings();
     }
   }
@@ -188,7 +188,7 @@ TEST(NoisySonar, WhatMovesByItselfIsStillHeard) {
     for (std::uint32_t i = 0; i < 50; ++i) {
       const double range = 1.8 - 0.5 * 0.05 * i;
       if (i % every == 0) test::SetEcho(&scan, 3, range + random.Gaussian(0.01 * range));
-      deaf |= bench.StepAsFired(scan).command.decision.rule == Rule::kDeaf;
+      deaf |= bench.StepAsFired(scan).command.decision.rule == Rule::kUnidentifiedMotion;
       scan.readings = bench.LastReadings();
     }
     EXPECT_TRUE(deaf);
@@ -207,7 +207,8 @@ TEST(SlowSonar, AnOldEchoOfAPeerIsStillThatPeer) {
     peer.wheels = {1.2 / 0.0975, 1.2 / 0.0975};
     std::vector<Beacon> beacons;
     if (tick > 1) beacons = {peer};
-    EXPECT_NE(bench.StepAsFired(scan, beacons).command.decision.rule, Rule::kDeaf) << i;
+    EXPECT_NE(bench.StepAsFired(scan, beacons).command.decision.rule, Rule::kUnidentifiedMotion)
+        << i;
     scan.readings = bench.LastReadings();
   }
 }

@@ -15,12 +15,12 @@ using Ids = std::set<std::uint32_t>;
 
 class LectureFlaw : public testing::TestWithParam<Behaviour> {};
 
-// Fixed in rules.cc, GiveWay: a dead stop, never the peer's speed.
+// Fixed in decision_rules.cc, GiveWay: a dead stop, never the peer's speed.
 TEST_P(LectureFlaw, No1TheLoserHaltsInsteadOfCopyingThePeersSpeed) {
   sim::VirtualFleet fleet(Crossing(GetParam(), 0.4, 0.3));
   bool gave_way = false;
   while (fleet.Advance()) {
-    const MotorCommand& command = fleet.Said(1).command;
+    const MotorCommand& command = fleet.OutputsOf(1).command;
     if (command.decision.rule != Rule::kGiveWay) continue;
     gave_way = true;
     ASSERT_EQ(command.target, WheelSpeeds{});
@@ -28,7 +28,7 @@ TEST_P(LectureFlaw, No1TheLoserHaltsInsteadOfCopyingThePeersSpeed) {
   EXPECT_TRUE(gave_way);
 }
 
-// Fixed in types/beacon.h, GoesFirst: a strict total order.
+// Fixed in types/beacon.h, PrecedesByKey: a strict total order.
 TEST_P(LectureFlaw, No2EqualSpeedsSendOnlyOneToHalt) {
   const auto outcome = Finish(Crossing(GetParam(), 0.3, 0.3));
   EXPECT_EQ(outcome.halted, Ids{2});
@@ -63,9 +63,9 @@ TEST_P(LectureFlaw, No5ADeadPeerIsNotBelievedForEver) {
 
 // Fixed by the order key: forward cruise, not left squared plus right squared.
 TEST(LectureFlaw, No6ASpinningVehicleIsNotAFastOne) {
-  const OrderKey spinning{.speed_bucket = 4, .vehicle = VehicleId{1}};
-  const OrderKey driving{.speed_bucket = 6, .vehicle = VehicleId{2}};
-  EXPECT_TRUE(GoesFirst(driving, spinning));
+  const PriorityKey spinning{.speed_bucket = 4, .vehicle = VehicleId{1}};
+  const PriorityKey driving{.speed_bucket = 6, .vehicle = VehicleId{2}};
+  EXPECT_TRUE(PrecedesByKey(driving, spinning));
 }
 
 // Fixed in echoes.cc: an echo counts for a peer only where that peer's body is.
@@ -87,14 +87,15 @@ TEST_P(LectureFlaw, No8TwoParkedNoseToNoseLeave) {
   EXPECT_EQ(outcome.arrived, (Ids{1, 2}));
 }
 
-// Fixed in vehicle.cc, ListenForMovers: unidentified motion within the critical distance halts, and
+// Fixed in vehicle.cc, DetectMovers: unidentified motion within the critical distance halts, and
 // the halt names its cause.
 TEST_P(LectureFlaw, No9CriticalButDeafHalts) {
   Scenario scenario = Crossing(GetParam(), 0.4, 0.3);
   for (VehicleOptions& vehicle : scenario.vehicles) vehicle.emission_radius_m = 0.6;
   sim::VirtualFleet fleet(scenario);
   bool deaf = false;
-  while (fleet.Advance()) deaf |= fleet.Said(1).command.decision.rule == Rule::kDeaf;
+  while (fleet.Advance())
+    deaf |= fleet.OutputsOf(1).command.decision.rule == Rule::kUnidentifiedMotion;
   EXPECT_TRUE(deaf);
   EXPECT_EQ(fleet.World().Figures().contacts, 0U);
 }

@@ -132,7 +132,7 @@ TEST(Lost, OneThatIsIsPassedAsFarAwayAsItIsUnsure) {
     const test::Onlooker onlooker;
     Peer peer = test::PeerAt({{3, 0}, 0}, {.xx_m2 = 0.09, .yy_m2 = 0.09});
     peer.beacon.rule = rule;
-    return RoomBeside(onlooker.LookAt(&peer), onlooker.Own());
+    return RoomBeside(onlooker.RelatePeer(&peer), onlooker.Own());
   };
   EXPECT_NEAR(room_m(Rule::kLost), room_m(Rule::kArrived) + kSigmas * 0.3, 1e-9);
 }
@@ -158,7 +158,7 @@ TEST(Lost, OneThatArrivedByItsWheelsGoesOnWhenAFixShowsThatItIsElsewhere) {
   EXPECT_EQ(out.command.decision.rule, Rule::kCruise);
   // Approaches measured by its wheels alone do not count: it has yet to come nearer.
   const VehicleState& state = bench.Brain().State();
-  EXPECT_LE(state.progress.aimless_ticks, 1U);
+  EXPECT_LE(state.progress.no_progress_ticks, 1U);
   EXPECT_GT(state.progress.nearest_m, 0.1);
 }
 

@@ -137,7 +137,7 @@ TEST_F(PeerTableTest, EveryRefusalHasItsCounterAndNamesWhoItWas) {
           &BeaconCounters::rejected_out_of_range);
   refused([](ReceivedBeacon* r) { r->beacon.order.speed_bucket = 99; },
           &BeaconCounters::rejected_out_of_range);
-  refused([](ReceivedBeacon* r) { r->beacon.order.vehicle = kNobody; },
+  refused([](ReceivedBeacon* r) { r->beacon.order.vehicle = kNoVehicle; },
           &BeaconCounters::rejected_out_of_range);
   refused([](ReceivedBeacon* r) { r->beacon.rule = static_cast<Rule>(99); },
           &BeaconCounters::rejected_out_of_range);

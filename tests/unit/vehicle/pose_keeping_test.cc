@@ -18,8 +18,8 @@ constexpr double kSigma_m = 0.05;
 constexpr WorldEpoch kEpoch{7};
 constexpr VehicleId kOwn{1};
 
-VehicleProfile Fitted(double wheel_slip = 0) {
-  VehicleProfile profile = PioneerP3dx();
+RobotModel Fitted(double wheel_slip = 0) {
+  RobotModel profile = PioneerP3dx();
   profile.pose_fix = {.every_s = 1, .sigma_m = kSigma_m};
   profile.wheel_slip = wheel_slip;
   profile.pose_limit_m = kUsualPoseLimit_m;
@@ -29,7 +29,7 @@ VehicleProfile Fitted(double wheel_slip = 0) {
 // A vehicle whose true pose is known, with encoders that may deviate.
 class Keeper {
  public:
-  explicit Keeper(const VehicleProfile& profile, std::uint64_t seed = 1)
+  explicit Keeper(const RobotModel& profile, std::uint64_t seed = 1)
       : profile_(profile), random_(seed) {
     Begin(profile_, &keeping);
   }
@@ -82,7 +82,7 @@ class Keeper {
   PoseKeeping keeping;
 
  private:
-  VehicleProfile profile_;
+  RobotModel profile_;
   Random random_;
   std::array<Pose, 64> past_{};
 };
@@ -242,7 +242,7 @@ TEST(PoseKeeping, AHeadingThatDoesNotFitIsDoubtedToo) {
 
 // The error of a step has one model: with fixes too the encoders are not taken for exact.
 TEST(PoseKeeping, SaysWhatAWayAddsToTheDoubt) {
-  const auto added = [](const VehicleProfile& profile) {
+  const auto added = [](const RobotModel& profile) {
     Odometry odometry;
     PoseKeeping keeping;
     Begin(profile, &keeping);
@@ -335,7 +335,7 @@ TEST(PoseKeeping, EncodersThatCountALittleTooMuchAreMadeGoodByFixes) {
 }
 
 TEST(PoseKeeping, UnequalWheelsAreLearntFromFixes) {
-  VehicleProfile profile = Fitted();
+  RobotModel profile = Fitted();
   profile.wheel_error = {.diameter = 0.03, .axle = -0.05};
   Keeper keeper(profile);
   for (int i = 1; i <= 2400; ++i) {
@@ -349,9 +349,9 @@ TEST(PoseKeeping, UnequalWheelsAreLearntFromFixes) {
 
 // It knows the size of its wheel errors, not their sign.
 TEST(PoseKeeping, TheSignOfAWheelErrorIsNotKnownToIt) {
-  VehicleProfile one = Fitted();
+  RobotModel one = Fitted();
   one.wheel_error = {.diameter = 0.03, .axle = -0.05};
-  VehicleProfile other = one;
+  RobotModel other = one;
   other.wheel_error = {.diameter = -0.03, .axle = 0.05};
   Odometry odometry_of_one, odometry_of_other;
   PoseKeeping keeping_of_one, keeping_of_other;
@@ -368,7 +368,7 @@ TEST(PoseKeeping, TheSignOfAWheelErrorIsNotKnownToIt) {
 
 // Its error grows with the distance, not with the square root of it.
 TEST(PoseKeeping, WithoutFixesTheDoubtOfUnequalWheelsGrowsAsTheirErrorDoes) {
-  VehicleProfile profile = PioneerP3dx();
+  RobotModel profile = PioneerP3dx();
   profile.wheel_error = {.diameter = 0.02, .axle = 0.02};
   Keeper keeper(profile);
   for (int i = 0; i < 200; ++i) {
@@ -379,7 +379,7 @@ TEST(PoseKeeping, WithoutFixesTheDoubtOfUnequalWheelsGrowsAsTheirErrorDoes) {
 }
 
 TEST(PoseKeeping, WithoutAnyOfItDeadReckoningIsWhatItWas) {
-  VehicleProfile profile = PioneerP3dx();
+  RobotModel profile = PioneerP3dx();
   profile.wheel_slip = 0.1;
   Keeper keeper(profile);
   Odometry plain;
@@ -417,7 +417,7 @@ TEST(PoseKeeping, OneThatGrowsUnsureSlowsDownThenIsLostAndFoundByAFix) {
 }
 
 TEST(PoseKeeping, AtTheEdgeOfItsLimitItDoesNotFlutter) {
-  VehicleProfile profile = Fitted();
+  RobotModel profile = Fitted();
   PoseKeeping keeping;
   const auto share = [&](double sigma_m) {
     return JudgeCertainty(profile, {.xx_m2 = sigma_m * sigma_m}, &keeping);
@@ -431,7 +431,7 @@ TEST(PoseKeeping, AtTheEdgeOfItsLimitItDoesNotFlutter) {
 
 // Ten thousand fixes and turns: rounding must never make a variance negative.
 TEST(PoseKeeping, StaysUnsureWithinReason) {
-  VehicleProfile profile = Fitted(0.1);
+  RobotModel profile = Fitted(0.1);
   profile.wheel_error = {.diameter = 0.01, .axle = 0.01};
   Keeper keeper(profile);
   Random random(2);

@@ -53,7 +53,7 @@ TEST_P(EveryTier, AWallIsNotTouchedAndNotTakenForSomethingThatMoves) {
     SmallFleet fleet(In(GetParam(), scenario, seed));
     int deaf = 0;
     while (fleet.Advance()) {
-      deaf += fleet.Said(0).command.decision.rule == Rule::kDeaf ? 1 : 0;
+      deaf += fleet.OutputsOf(0).command.decision.rule == Rule::kUnidentifiedMotion ? 1 : 0;
     }
     EXPECT_EQ(fleet.World().Figures().contacts, 0U) << seed;
     EXPECT_EQ(deaf, 0) << seed;
@@ -107,7 +107,7 @@ TEST_P(WithSensors, AWallAheadIsAnObstacleByItsPlace) {
   for (SensorMount& mount : scenario.vehicles[0].profile.sonar) mount.enabled = false;
   SmallFleet fleet(scenario);
   bool object = false;
-  while (fleet.Advance()) object |= fleet.Said(0).command.decision.rule == Rule::kObject;
+  while (fleet.Advance()) object |= fleet.OutputsOf(0).command.decision.rule == Rule::kObject;
   EXPECT_TRUE(object);
   EXPECT_EQ(fleet.World().Figures().contacts, 0U);
 }

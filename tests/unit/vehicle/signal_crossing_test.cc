@@ -67,7 +67,7 @@ Seen Drive(SmallFleet* fleet, const std::function<void(double time_s)>& each_tic
       if (before[i] <= 0 && now > 0) seen.went_over_at_s[i] = time_s;
       before[i] = now;
     }
-    const bool red = fleet->Said(1).command.decision.rule == Rule::kSignal;
+    const bool red = fleet->OutputsOf(1).command.decision.rule == Rule::kSignal;
     seen.red_s += red ? 0.05 : 0;
     const Truth& first = fleet->World().Truths()[0];
     seen.stood_on_green |=

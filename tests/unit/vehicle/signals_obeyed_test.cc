@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "services/vehicle/estimation/signals.h"
+#include "services/vehicle/estimation/signal_table.h"
 #include "tests/support/brain_bench.h"
 
 namespace giveway {
@@ -214,7 +214,7 @@ TEST(SignalsOfOthers, WhoStandsAtRedComesAfterWhoDoesNot) {
       out = bench.Step(Driving(0.3), {Southern(tick - 1, rule)});
       if (rule == Rule::kSignal) {
         EXPECT_EQ(out.command.decision.rule, Rule::kCruise) << tick;
-        EXPECT_EQ(out.beacon.gives_way_to, kNobody) << tick;
+        EXPECT_EQ(out.beacon.gives_way_to, kNoVehicle) << tick;
       }
     }
     EXPECT_EQ(out.command.decision.rule, rule == Rule::kSignal ? Rule::kCruise : Rule::kGiveWay);

@@ -64,7 +64,7 @@ TEST(Steering, TheStockVehicleBrakesAndTurnsAway) {
 }
 
 TEST(Steering, ALargeErrorTurnsOnTheSpotFirst) {
-  const VehicleProfile p3dx = PioneerP3dx();
+  const RobotModel p3dx = PioneerP3dx();
   const WheelSpeeds wheels = Drive(p3dx, {}, {.heading_error_rad = 0.5}, {0.3, true, 0.05});
   EXPECT_NEAR(wheels.left_rad_s, -wheels.right_rad_s, 1e-12);
   EXPECT_GT(wheels.right_rad_s, 0);
@@ -75,13 +75,13 @@ TEST(Steering, ADeadStopDoesNotTurn) {
 }
 
 // The rim of a wheel after one tick of 50 ms towards `target`, radians a second.
-double RimAfterTick(const VehicleProfile& profile, double now, double target) {
+double RimAfterTick(const RobotModel& profile, double now, double target) {
   const double limit = 0.05 * profile.acceleration_m_s2 / profile.drive.wheel_radius_m;
   return now + std::clamp(target - now, -limit, limit);
 }
 
 // The same where it brakes: towards standstill, and through it.
-double BrakedOrFaster(const VehicleProfile& profile, double now, double target) {
+double BrakedOrFaster(const RobotModel& profile, double now, double target) {
   const bool brakes = now * target < 0 || std::abs(target) < std::abs(now);
   if (!brakes) return RimAfterTick(profile, now, target);
   const double limit = 0.05 * profile.deceleration_m_s2 / profile.drive.wheel_radius_m;
@@ -89,7 +89,7 @@ double BrakedOrFaster(const VehicleProfile& profile, double now, double target) 
 }
 
 TEST(Steering, AVehicleThatSpeedsUpOutOfATurnDoesNotSway) {
-  const VehicleProfile p3dx = PioneerP3dx();
+  const RobotModel p3dx = PioneerP3dx();
   WheelSpeeds wheels;
   double error_rad = 1;
   double most_rad = 0;  // beyond the wanted heading
@@ -110,7 +110,7 @@ TEST(Steering, AVehicleThatSpeedsUpOutOfATurnDoesNotSway) {
 // Regression: one rim speeds up ten times as fast as the other brakes. Steering away from what it
 // had to stop for made it drive on, faster and faster, until both touched.
 TEST(Steering, ATurnMakesNobodyFasterThanItMayDrive) {
-  VehicleProfile weak = PioneerP3dx();
+  RobotModel weak = PioneerP3dx();
   weak.acceleration_m_s2 = 2;
   weak.deceleration_m_s2 = 0.2;
   for (const double error_rad : {0.05, -0.1, 0.25, -0.6, 1.5}) {
@@ -134,7 +134,7 @@ TEST(Steering, ATurnMakesNobodyFasterThanItMayDrive) {
 
 // To come out of a turn, the slower rim keeps its speed until the other is no faster.
 TEST(Steering, OutOfATurnItBrakesWithoutTurningOn) {
-  VehicleProfile weak = PioneerP3dx();
+  RobotModel weak = PioneerP3dx();
   weak.acceleration_m_s2 = 2;
   weak.deceleration_m_s2 = 0.2;
   WheelSpeeds wheels = WheelsFromTwist(weak.drive, {0.7, 0.3});
@@ -166,7 +166,7 @@ TEST(Steering, WhatStopsAnAimlessVehicleIsTurnedAwayFrom) {
 
 // The range a sensor reports of a wall along y = wall_y_m, south of it: the nearest point within
 // its cone.
-double RangeToWall(const VehicleProfile& profile, std::size_t sensor, const Pose& world_from_body,
+double RangeToWall(const RobotModel& profile, std::size_t sensor, const Pose& world_from_body,
                    double wall_y_m) {
   const SensorMount& mount = profile.sonar[sensor];
   const double off_rad = WrapAngle(world_from_body.heading_rad + mount.bearing_rad + kPi / 2);
@@ -264,7 +264,7 @@ TEST(Steering, WhereEchoesAloneCoverTheWayItIsKept) {
     scan.wheels = {};  // it is held where it stands
     out = bench.Step(scan, tick == 0 ? std::vector<Beacon>{} : std::vector{beside});
   }
-  EXPECT_GE(bench.Brain().State().progress.aimless_ticks, 120U);
+  EXPECT_GE(bench.Brain().State().progress.no_progress_ticks, 120U);
   EXPECT_NEAR(TwistFromWheels(PioneerP3dx().drive, out.command.target).turn_rad_s, 0, 0.1);
 }
 

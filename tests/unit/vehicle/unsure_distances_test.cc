@@ -19,24 +19,24 @@ VehicleOptions WithGate(double gate_enter_m) {
 double CriticalDistanceWith(const PoseCovariance& covariance, double gate_enter_m = 0) {
   const test::Onlooker onlooker(WithGate(gate_enter_m));
   Peer peer = test::PeerAt({{3, 3}, 0}, covariance);
-  return CriticalDistance(onlooker.Own(), onlooker.LookAt(&peer));
+  return CriticalDistance(onlooker.Own(), onlooker.RelatePeer(&peer));
 }
 
 // Of a peer that comes from the right.
 std::optional<Conflict> CrossingWith(const PoseCovariance& covariance) {
   Peer peer = test::PeerAt({{4, -3}, kPi / 2}, covariance);
-  return test::Onlooker().LookAt(&peer).crossing;
+  return test::Onlooker().RelatePeer(&peer).crossing;
 }
 
 // Before the claim of a peer straight ahead.
 double FreeWith(const PoseCovariance& covariance) {
   Peer peer = test::PeerAt({{6, 0}, 0}, covariance);
-  return test::Onlooker().LookAt(&peer).free_m;
+  return test::Onlooker().RelatePeer(&peer).free_m;
 }
 
 bool MattersBeside(const PoseCovariance& covariance) {
   const Peer peer = test::PeerAt({{30, -3}, 0}, covariance);
-  return CanMatter(peer, true, test::Onlooker().Own());
+  return IsRelevant(peer, true, test::Onlooker().Own());
 }
 
 // Whether an echo straight ahead, so much nearer than the body of a peer 1.5 m ahead, is its own.
@@ -46,7 +46,7 @@ bool TakesForItsOwn(double nearer_m, const PoseCovariance& covariance) {
   const std::size_t ahead = 3;  // the sensor that looks most nearly ahead
   const Vec2 mount = test::DefaultOptions().profile.sonar[ahead].position_body;
   onlooker.Hear(ahead, Norm(Vec2{1.5, 0} - mount) - peer.beacon.body_radius_m - nearer_m);
-  return onlooker.LookAt(&peer).explains != 0;
+  return onlooker.RelatePeer(&peer).explains != 0;
 }
 
 // 0.5 m along the line of the two centres and 0.1 m across it, or vice versa.
@@ -84,7 +84,7 @@ TEST(Claims, AreKeptFromByTwiceWhatIsUnsureAlongTheWorstAxis) {
 TEST(Peers, AreLessSureTheFartherTheyWereCarriedOn) {
   const WheelSpeeds one_m_s = {1 / 0.0975, 1 / 0.0975};
   Peer peer = test::PeerAt({{4, -3}, kPi / 2}, {.hh_rad2 = 0.01}, one_m_s);
-  const PeerView view = test::Onlooker().LookAt(&peer);
+  const PeerView view = test::Onlooker().RelatePeer(&peer);
   EXPECT_NEAR(view.sigma_m, 0.05 * 0.1, 1e-12);
   EXPECT_NEAR(view.apart.xx_m2, 0.005 * 0.005, 1e-12);
   EXPECT_NEAR(view.apart.yy_m2, 0, 1e-12);
@@ -111,11 +111,11 @@ TEST(Beacon, TellsTheCovarianceOfItsPose) {
   scan.wheels = {3, 3};
   Outputs out;
   for (int i = 0; i < 200; ++i) out = bench.Step(scan);
-  const PoseCovariance& told = out.beacon.covariance;
-  EXPECT_EQ(told, bench.Brain().State().motion.odometry.Covariance());
-  EXPECT_GT(told.xx_m2, 0);
-  EXPECT_GT(told.yy_m2, 10 * told.xx_m2);
-  EXPECT_GT(told.yh_m_rad, 0);
+  const PoseCovariance& published = out.beacon.covariance;
+  EXPECT_EQ(published, bench.Brain().State().motion.odometry.Covariance());
+  EXPECT_GT(published.xx_m2, 0);
+  EXPECT_GT(published.yy_m2, 10 * published.xx_m2);
+  EXPECT_GT(published.yh_m_rad, 0);
 }
 
 }  // namespace

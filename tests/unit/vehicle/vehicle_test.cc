@@ -92,13 +92,13 @@ TEST(Vehicle, AfterAPauseItDoesNotKnowWhetherItTurnedFirstOrLast) {
   bench.Step(Arc());
   bench.RollOn({2, 4});
   for (int i = 0; i < 20; ++i) bench.StepBlind();
-  const double way_m = 21 * 0.05 * 3 * 0.0975;
+  const double path_m = 21 * 0.05 * 3 * 0.0975;
   const double turned_rad = 21 * 0.05 * 2 * 0.0975 / 0.33;
   RangeScan scan = ClearScan(0);
   scan.wheels = {2, 4};
   const double sigma_m = SigmaPosition(bench.Step(scan).beacon.covariance);
-  EXPECT_GT(sigma_m, 0.4 * way_m * turned_rad);
-  EXPECT_LT(sigma_m, 0.7 * way_m * turned_rad);
+  EXPECT_GT(sigma_m, 0.4 * path_m * turned_rad);
+  EXPECT_LT(sigma_m, 0.7 * path_m * turned_rad);
 }
 
 TEST(Vehicle, CountsThatNoDriveMadeAreNotBelieved) {
@@ -126,7 +126,7 @@ TEST(Vehicle, ANewWorldEpochForgetsWhatTheOldOneShowed) {
     test::SetEcho(&scan, 0, 0.95 - 0.02 * tick);  // something comes nearer: deaf
     out = bench.Step(scan, tick == 12 ? std::vector{standing} : std::vector<Beacon>{});
   }
-  ASSERT_EQ(out.command.decision.rule, Rule::kDeaf);
+  ASSERT_EQ(out.command.decision.rule, Rule::kUnidentifiedMotion);
   ASSERT_GT(out.beacon.order.waited_ticks, 2U);
   ASSERT_EQ(bench.Brain().PeersHeard(), 1U);
   Vehicle brain(options, 42);
@@ -173,7 +173,7 @@ TEST(Vehicle, ANewWorldEpochForgetsThatItTurned) {
     test::SetEcho(&scan, 0, 0.95 - 0.02 * tick);  // something comes nearer
     out = brain.Step({.now = bench.Now() + tick * std::chrono::milliseconds(50), .scan = scan});
   }
-  EXPECT_EQ(out.command.decision.rule, Rule::kDeaf);
+  EXPECT_EQ(out.command.decision.rule, Rule::kUnidentifiedMotion);
 }
 
 // A NaN in the pose would never leave it again.

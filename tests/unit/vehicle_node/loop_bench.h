@@ -41,17 +41,17 @@ class ScriptedLink final : public link::DriveLink {
   ScriptedLink(HandClock* clock, Script script) : clock_(*clock), script_(std::move(script)) {}
 
   // In the order in which it was sent: "beacon", "leave notice", "join 1", "leave", "status", ...
-  const std::vector<std::string>& Said() const { return said_; }
+  const std::vector<std::string>& Calls() const { return calls_; }
   // Without what is sent all the time.
   std::vector<std::string> SaidBesides() const {
     std::vector<std::string> rest;
-    std::ranges::remove_copy_if(said_, std::back_inserter(rest), [](const std::string& word) {
+    std::ranges::remove_copy_if(calls_, std::back_inserter(rest), [](const std::string& word) {
       return word == "beacon" || word == "status";
     });
     return rest;
   }
   const std::vector<Outputs>& Sent() const { return sent_; }
-  const std::vector<JoinRequest>& Joins() const { return joins_; }
+  const std::vector<JoinRequest>& JoinRequests() const { return joins_; }
   const VehicleStatus& LastStatus() const { return last_status_; }
   const std::vector<Nanoseconds>& Waits() const { return waits_; }
   std::uint32_t Turns() const { return turn_; }
@@ -78,21 +78,21 @@ class ScriptedLink final : public link::DriveLink {
   std::vector<std::string> TakeUnfit(SteadyTime /*now*/) override { return {}; }
   void Send(const Outputs& outputs) override {
     sent_.push_back(outputs);
-    said_.push_back(outputs.beacon.mode == Mode::kLeaving ? "leave notice" : "beacon");
+    calls_.push_back(outputs.beacon.mode == Mode::kLeaving ? "leave notice" : "beacon");
   }
   void SendStatus(const VehicleStatus& status) override {
     last_status_ = status;
-    said_.push_back(status.final ? "last status" : "status");
+    calls_.push_back(status.final ? "last status" : "status");
   }
-  void FlushStatus(Nanoseconds /*timeout*/) override { said_.push_back("status heard"); }
-  void FlushAnswer(Nanoseconds /*timeout*/) override { said_.push_back("answer heard"); }
+  void FlushStatus(Nanoseconds /*timeout*/) override { calls_.push_back("status heard"); }
+  void FlushAnswer(Nanoseconds /*timeout*/) override { calls_.push_back("answer heard"); }
   void SendJoin(const JoinRequest& request) override {
     joins_.push_back(request);
-    said_.push_back("join " + std::to_string(Number(request.wanted)));
+    calls_.push_back("join " + std::to_string(Number(request.wanted)));
   }
-  void FlushJoin(Nanoseconds /*timeout*/) override { said_.push_back("join heard"); }
+  void FlushJoin(Nanoseconds /*timeout*/) override { calls_.push_back("join heard"); }
   void SendLeave(const SessionId& session) override {
-    said_.push_back(session == kSession ? "leave" : "leave as another");
+    calls_.push_back(session == kSession ? "leave" : "leave as another");
   }
   // Entries for TakeRoster, one a call.
   void Answer(const RosterEntry& entry) { entries_.push_back(entry); }
@@ -102,7 +102,7 @@ class ScriptedLink final : public link::DriveLink {
     entries_.pop_front();
     return entry;
   }
-  std::string WhyNobodyIsFound() const override { return {}; }
+  std::string WhyNoPeerIsFound() const override { return {}; }
   std::string InterfaceChange() const override { return interface_change_; }
   bool WorldSpeaks() const override { return world_speaks_; }
   bool LacksBody() const override { return lacks_body_; }
@@ -118,7 +118,7 @@ class ScriptedLink final : public link::DriveLink {
   std::uint32_t turn_ = 0;
   Arrival next_;
   std::vector<ReceivedBeacon> received_;
-  std::vector<std::string> said_;
+  std::vector<std::string> calls_;
   std::vector<Outputs> sent_;
   std::vector<JoinRequest> joins_;
   std::deque<RosterEntry> entries_;
@@ -185,13 +185,13 @@ class LoopBench {
   const std::vector<std::size_t>& FirstScans() const { return answered_; }
 
  private:
-  bool HasAsked() const { return !link_.Joins().empty(); }
+  bool HasAsked() const { return !link_.JoinRequests().empty(); }
 
   HandClock clock_;
   ScriptedLink link_;
   VehicleLoopOptions options_;
   Scenario scenario_;
-  VehicleHealthTeller health_{ServiceFlags{}};
+  VehicleHealthReporter health_{ServiceFlags{}};
   std::optional<VehicleLoop> loop_;
   std::uint32_t stop_at_ = 1'000'000;
   std::uint32_t order_at_ = 0;

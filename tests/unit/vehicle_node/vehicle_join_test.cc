@@ -32,7 +32,7 @@ class Joining : public ::testing::Test {
 
   HandClock clock_;
   ScriptedLink link_{&clock_, [](std::uint32_t) { return Arrival{}; }};
-  VehicleHealthTeller health_{ServiceFlags{}};
+  VehicleHealthReporter health_{ServiceFlags{}};
   Scenario scenario_;
 };
 
@@ -49,7 +49,7 @@ TEST_F(Joining, APlaceFarOffIsNotTakenAndAskedForAgain) {
   EXPECT_GE(link_.SaidBesides().size(), 2U);
   link_.Answer(At(1000));
   link_.Answer(At(2));
-  const auto entry = JoinAs(kNobody);
+  const auto entry = JoinAs(kNoVehicle);
   ASSERT_TRUE(entry);
   EXPECT_EQ(entry->start_world.position_world.x, 2);
 }

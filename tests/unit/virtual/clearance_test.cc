@@ -25,7 +25,7 @@ class ClearanceTest : public testing::Test {
     now_[1].position_world = {10, 10};
   }
   // How many are reported, of the scenario as it is, in one tick.
-  std::size_t Told() {
+  std::size_t Violations() {
     Clearance clearance(scenario_, 0.05);
     return clearance.Observe(now_, {}).size();
   }
@@ -36,29 +36,29 @@ class ClearanceTest : public testing::Test {
 
 TEST_F(ClearanceTest, FiveCentimetresBetweenShellsAreEnough) {
   now_[1].position_world = {0.551, 0};
-  EXPECT_EQ(Told(), 0U);
+  EXPECT_EQ(Violations(), 0U);
   now_[1].position_world = {0.549, 0};
-  EXPECT_EQ(Told(), 1U);
+  EXPECT_EQ(Violations(), 1U);
 }
 
 TEST_F(ClearanceTest, OnlyOfWhoMovesTowards) {
   now_[1].position_world = {0.52, 0};
   now_[0].forward_m_s = 0;
-  EXPECT_EQ(Told(), 0U);
+  EXPECT_EQ(Violations(), 0U);
   now_[0].forward_m_s = -0.3;
-  EXPECT_EQ(Told(), 0U);
+  EXPECT_EQ(Violations(), 0U);
   now_[0].forward_m_s = 0.3;
   now_[0].heading_rad = kPi / 2;
-  EXPECT_EQ(Told(), 0U);
+  EXPECT_EQ(Violations(), 0U);
 }
 
 TEST_F(ClearanceTest, OfWallsFromAnySide) {
   scenario_.walls.push_back({{0.29, -5}, {0.29, 5}});
-  EXPECT_EQ(Told(), 1U);
+  EXPECT_EQ(Violations(), 1U);
   scenario_.walls[0] = {{0.31, -5}, {0.31, 5}};
-  EXPECT_EQ(Told(), 0U);
+  EXPECT_EQ(Violations(), 0U);
   scenario_.walls[0] = {{0.28, 0}, {3, 0}};  // its end
-  EXPECT_EQ(Told(), 1U);
+  EXPECT_EQ(Violations(), 1U);
 }
 
 // The disc round it may reach over: a box is judged by its sides.
@@ -68,9 +68,9 @@ TEST_F(ClearanceTest, OfABoxByItsSides) {
   scenario_.vehicles[1].profile.body_radius_m = 0.4472;
   now_[1].position_world = {0.6, 0};
   now_[1].heading_rad = kPi / 2;
-  EXPECT_EQ(Told(), 0U);  // 0.15 m to its flank
+  EXPECT_EQ(Violations(), 0U);  // 0.15 m to its flank
   now_[1].heading_rad = 0;
-  EXPECT_EQ(Told(), 1U);
+  EXPECT_EQ(Violations(), 1U);
 }
 
 TEST_F(ClearanceTest, OfObstaclesAndOfLeavesThatAreNotOpen) {

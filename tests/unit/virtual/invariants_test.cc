@@ -100,7 +100,7 @@ TEST_F(InvariantsTest, AContactIsTheFaultOfWhoDrove) {
 TEST_F(InvariantsTest, AContactWithAWallIsTheFaultOfTheOnlyVehicle) {
   Observe({{.kind = EventKind::kContact, .vehicle = VehicleId{3}}});
   EXPECT_EQ(invariants_->First()[0].vehicle, VehicleId{3});
-  EXPECT_EQ(invariants_->First()[0].other, kNobody);
+  EXPECT_EQ(invariants_->First()[0].other, kNoVehicle);
 }
 
 TEST_F(InvariantsTest, BrakingOnStaleRangesIsAllowedAndDrivingOnIsNot) {
@@ -350,7 +350,7 @@ TEST_F(InvariantsTest, WhoIsDueAndNotThereIsLate) {
 
 TEST_F(InvariantsTest, SayByWhichRule) {
   Halt(2, Rule::kObstacle, 0);
-  Observe({{.kind = EventKind::kContact, .vehicle = VehicleId{2}, .other = kNobody}});
+  Observe({{.kind = EventKind::kContact, .vehicle = VehicleId{2}, .other = kNoVehicle}});
   ASSERT_EQ(invariants_->First().size(), 1U);
   EXPECT_EQ(invariants_->First()[0].rule, Rule::kObstacle);
 }

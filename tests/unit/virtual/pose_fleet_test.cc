@@ -50,7 +50,7 @@ TEST(PoseFleet, WithoutFixesTheySayThatTheyAreLost) {
     const Scenario scenario = Swarm(6, seed, {.slip = 0.1, .limit_m = kUsualPoseLimit_m});
     const VirtualOutcome outcome = RunVirtually(scenario, {}, [&](const VirtualFleet& fleet) {
       for (std::size_t i = 0; i < fleet.Size(); ++i) {
-        const Beacon& said = fleet.Said(i).beacon;
+        const Beacon& said = fleet.OutputsOf(i).beacon;
         lost += said.rule == Rule::kLost && said.tick == fleet.World().Now() ? 1 : 0;
       }
     });

@@ -86,7 +86,7 @@ TEST_F(ProgressTest, WaitingInAQueueThatMovesIsNoWedge) {
 TEST_F(ProgressTest, AfterTheOthersHaveGoneThereIsAMinuteToDriveOff) {
   speed_m_s_[0] = 0.02;
   Observe(100 * kSecond);
-  now_[1].decision.peer = kNobody;
+  now_[1].decision.peer = kNoVehicle;
   Observe(55 * kSecond);
   EXPECT_EQ(Wedged(), 0U);
   Observe(20 * kSecond);
@@ -97,7 +97,7 @@ TEST_F(ProgressTest, WaitingForOneFarOffThatItNamesIsNoWedge) {
   now_[0].gives_way_to = VehicleId{3};
   Observe(kLong);
   EXPECT_EQ(Wedged(), 0U);
-  now_[0].gives_way_to = kNobody;
+  now_[0].gives_way_to = kNoVehicle;
   Observe(kLong);
   EXPECT_EQ(Wedged(), 2U);
 }

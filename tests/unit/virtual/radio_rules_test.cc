@@ -91,7 +91,7 @@ std::array<Tally, 2> HeardUnder(RadioRule rule, RadioSettings settings = {}) {
     if (tick > 1000) continue;
     Beacon beacon;
     beacon.seq = tick;
-    radio.Say(1, Tick{tick}, beacon);
+    radio.Transmit(1, Tick{tick}, beacon);
   }
   std::array<Tally, 2> tallies;
   int row = 0;

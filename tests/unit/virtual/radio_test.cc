@@ -49,7 +49,7 @@ class RadioTest : public testing::Test {
       beacon.boot_epoch = 7;
       beacon.seq = tick_;
       beacon.world_from_body.position_world = places_[kTalker].position_world;
-      radio_->Say(kTalker, giveway::Tick{tick_}, beacon);
+      radio_->Transmit(kTalker, giveway::Tick{tick_}, beacon);
     }
     std::vector<std::uint32_t> numbers;
     for (const ReceivedBeacon& received : heard_) numbers.push_back(received.beacon.seq);
@@ -91,7 +91,7 @@ TEST_F(RadioTest, LooksOnceForAllWhoHearWhetherABeaconIsInRange) {
     Tick();
     Beacon beacon = test::BeaconOf(2, tick_, {{3, 0}, 0});
     beacon.wheels.left_rad_s = speed_rad_s;
-    radio_->Say(kTalker, giveway::Tick{tick_}, beacon);
+    radio_->Transmit(kTalker, giveway::Tick{tick_}, beacon);
     Tick();
     ASSERT_EQ(heard_.size(), 1U);
     EXPECT_EQ(heard_[0].in_range, speed_rad_s < 30);

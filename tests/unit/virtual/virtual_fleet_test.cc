@@ -68,11 +68,11 @@ TEST(VirtualFleet, APausedVehicleSaysNothingBrakesAndGoesOn) {
   EXPECT_TRUE(fleet.Answered(1));
   Advance(&fleet, 14);
   EXPECT_FALSE(fleet.Answered(1));
-  EXPECT_EQ(fleet.Said(1).command.tick, Tick{79});
+  EXPECT_EQ(fleet.OutputsOf(1).command.tick, Tick{79});
   EXPECT_LT(fleet.World().Truths()[1].forward_m_s, 0.2);
   Advance(&fleet, 1);
   EXPECT_TRUE(fleet.Answered(1));
-  EXPECT_EQ(fleet.Said(1).beacon.boot_epoch, 2U);
+  EXPECT_EQ(fleet.OutputsOf(1).beacon.boot_epoch, 2U);
   // Of what was said meanwhile its reader kept the last four, and one is new.
   EXPECT_EQ(fleet.Brain(1).State().counters.beacons.taken, 78U + 5U);
   fleet.Finish();
@@ -85,10 +85,10 @@ TEST(VirtualFleet, ARestartedVehicleBeginsANewLifeWhereItStands) {
       {.kind = ProcessFaultKind::kRestart, .vehicle = VehicleId{2}, .at_s = 4, .for_s = 0.5}};
   VirtualFleet fleet(ALongRoad(), plan);
   Advance(&fleet, 95);
-  EXPECT_EQ(fleet.Said(1).beacon.boot_epoch, 3U);
-  EXPECT_EQ(fleet.Said(1).beacon.seq, 6U);
+  EXPECT_EQ(fleet.OutputsOf(1).beacon.boot_epoch, 3U);
+  EXPECT_EQ(fleet.OutputsOf(1).beacon.seq, 6U);
   const Vec2 truth = fleet.World().Truths()[1].world_from_body.position_world;
-  EXPECT_NEAR(fleet.Said(1).beacon.world_from_body.position_world.x, truth.x, 1e-6);
+  EXPECT_NEAR(fleet.OutputsOf(1).beacon.world_from_body.position_world.x, truth.x, 1e-6);
   fleet.Finish();
   EXPECT_EQ(fleet.World().EndReason(), "all_arrived");
 }
@@ -107,7 +107,7 @@ TEST(VirtualFleet, ARestartedVehicleGoesOnAlongItsRoute) {
   EXPECT_EQ(fleet.Brain(1).State().route.waypoint, 1U);
   const double x_m = fleet.World().Truths()[1].world_from_body.position_world.x;
   Advance(&fleet, 14);
-  EXPECT_EQ(fleet.Said(1).beacon.boot_epoch, 3U);
+  EXPECT_EQ(fleet.OutputsOf(1).beacon.boot_epoch, 3U);
   EXPECT_EQ(fleet.Brain(1).State().route.waypoint, 1U);
   double least_x_m = 1e9;
   while (fleet.Brain(1).State().route.waypoint == 1) {

@@ -16,7 +16,7 @@
 #include "services/config/problem.h"
 #include "services/config/scenario_file.h"
 #include "services/config/writing/scenario_edit.h"
-#include "services/faults/hearing.h"
+#include "services/faults/channel.h"
 #include "services/faults/kind_table.h"
 #include "services/faults/schedule_text.h"
 #include "services/faults/unsupported.h"
@@ -283,9 +283,9 @@ const VehicleOptions& AnyVehicle(const Scenario& scenario) {
 
 int Conclude(const SoakOptions& options, const SoakResult& result) {
   std::fputs((options.json ? ToJson(result) + "\n" : ForTerminal(ToText(result))).c_str(), stdout);
-  const bool told = std::fflush(stdout) == 0;
+  const bool written = std::fflush(stdout) == 0;
   Interrupts::AllowSeconds(kWriting_s);
-  const int code = std::max(ExitCode(result.verdict), told ? 0 : 1);
+  const int code = std::max(ExitCode(result.verdict), written ? 0 : 1);
   return WriteAfterVerdict(code, [&] {
     WriteSoakReport(result, options.report_folder);
     ForgetSoFar(options.report_folder);
@@ -308,8 +308,9 @@ int SoakVirtually(const SoakOptions& options) {
   const Scenario scenario = VirtualScenario(options, prepared);
   SoakResult result = BlankResult(options, prepared, 0);
   const SoakSeen seen = RunSoakVirtually(scenario, prepared.schedule, prepared.phases);
-  Judge({seen, prepared.schedule, {}, [](SteadyTime, SteadyTime) { return Nanoseconds{0}; }, false},
-        &result);
+  EvaluateSoak(
+      {seen, prepared.schedule, {}, [](SteadyTime, SteadyTime) { return Nanoseconds{0}; }, false},
+      &result);
   return Conclude(options, result);
 }
 
@@ -336,11 +337,11 @@ int SoakProcesses(const SoakOptions& options, const Prepared& prepared, const So
                       std::move(tools));
   const auto judged = [&](const SoakSeen& seen) {
     SoakResult result = blank;
-    Judge({seen, prepared.schedule, limits,
-           [&session](SteadyTime from, SteadyTime to) {
-             return session.Stalls().LongestPause(from, to);
-           }},
-          &result);
+    EvaluateSoak({seen, prepared.schedule, limits,
+                  [&session](SteadyTime from, SteadyTime to) {
+                    return session.Stalls().LongestPause(from, to);
+                  }},
+                 &result);
     return whole == nullptr ? result : Joined(*whole, result);
   };
   const SoakSeen seen = session.Run([&](const SoakSeen& so_far) {

@@ -26,7 +26,7 @@ using std::chrono::seconds;
 constexpr std::uint32_t kStatusTicks = 4;
 static_assert(kStatusTicks <= FigureSummary::kNewest);
 constexpr SteadyTime kBegin = seconds(1);  // 0 is no time
-constexpr Nanoseconds kTellEvery = seconds(10);
+constexpr Nanoseconds kProgressEvery = seconds(10);
 
 class VirtualSoak {
  public:
@@ -53,7 +53,7 @@ class VirtualSoak {
   SoakSeen Run() {
     seen_.started = true;
     seen_.started_at = kBegin;
-    while (Time_s() < phases_.end_s && Interrupts::Count() == 0 && fleet_.Advance()) Look();
+    while (Time_s() < phases_.end_s && Interrupts::Count() == 0 && fleet_.Advance()) ObserveTick();
     seen_.interrupted = Interrupts::Count() > 0;
     seen_.lasted_s = Time_s();
     CarryOut(clock_.EndAll(Time_s()));
@@ -66,7 +66,7 @@ class VirtualSoak {
   double Time_s() const { return fleet_.World().TimeSeconds(); }
   SteadyTime Now() const { return kBegin + FromSeconds(Time_s()); }
 
-  void Look() {
+  void ObserveTick() {
     sim::ObserveFleet(fleet_, &observed_);
     invariants_.Observe(fleet_.World().Now(), Time_s(), observed_, fleet_.World().Events(),
                         {fleet_.World().Obstacles(), fleet_.World().Doors()});
@@ -91,7 +91,7 @@ class VirtualSoak {
       timings_[i].Note({.woke = Now(),
                         .sent = Now(),
                         .scan = &*scan,
-                        .command = fleet_.Said(i).command,
+                        .command = fleet_.OutputsOf(i).command,
                         .evidence = fleet_.Brain(i).Evidence()});
     }
   }
@@ -108,8 +108,8 @@ class VirtualSoak {
       VehicleStatus& status = news.statuses.emplace_back();
       status.vehicle = scenario_.vehicles[i].id;
       status.tick = fleet_.World().Now();
-      status.decision = fleet_.Said(i).command.decision;
-      status.gives_way_to = fleet_.Said(i).beacon.gives_way_to;
+      status.decision = fleet_.OutputsOf(i).command.decision;
+      status.gives_way_to = fleet_.OutputsOf(i).beacon.gives_way_to;
       status.forward_m_s = fleet_.Brain(i).SpeedMps();
       status.timing = timings_[i].Figures();
     }
@@ -145,7 +145,7 @@ class VirtualSoak {
 
   void ShowProgress() {
     if (SteadyNow() < next_progress_) return;
-    next_progress_ = SteadyNow() + kTellEvery;
+    next_progress_ = SteadyNow() + kProgressEvery;
     std::fprintf(stderr, "%6.0f of %.0f s of virtual time\n", Time_s(), phases_.end_s);
   }
 

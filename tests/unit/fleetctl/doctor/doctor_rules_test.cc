@@ -127,16 +127,16 @@ TEST(Doctor, FindsHostIdsThatDiffer) {
   host.processes[1].addresses = {{{"lo", kLoopbackAddress, 0xff000000}}};
   EXPECT_EQ(Only(host).rule, "host_ids_apart");
   EXPECT_THAT(Only(host).values, HasSubstr("both have one /dev/shm"));
-  host.processes[1].told.domain = 8;
+  host.processes[1].launch.domain = 8;
   EXPECT_THAT(RulesOf(host), IsEmpty()) << "no finding across two domains";
 }
 
 TEST(Doctor, FindsAnInterfaceThatIsNotThere) {
   HostFacts host = HealthyHost();
-  host.planned.told.interface = "eth9";
+  host.planned.launch.interface = "eth9";
   EXPECT_EQ(Only(host).rule, "interface_missing");
   EXPECT_THAT(Only(host).values, HasSubstr("only lo (127.0.0.1)"));
-  host.planned.told.interface = "lo";
+  host.planned.launch.interface = "lo";
   host.interfaces[0].up = false;
   EXPECT_EQ(Only(host).rule, "interface_missing");
   host.interfaces.clear();
@@ -162,7 +162,7 @@ TEST(Doctor, FindsAnInterfaceThatSaysItCarriesNoMulticast) {
   host.interfaces[1].address = "192.0.2.2";
   host.interfaces[1].loopback = false;
   EXPECT_THAT(RulesOf(host), IsEmpty()) << "the other is meant";
-  host.planned.told.interface = "any";
+  host.planned.launch.interface = "any";
   EXPECT_EQ(Only(host).rule, "multicast_missing");
   EXPECT_EQ(Only(host).severity, qos::Severity::kWarning);
 }

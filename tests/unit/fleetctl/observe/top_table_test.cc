@@ -50,14 +50,14 @@ VehicleStatus GivingWay(std::uint32_t vehicle) {
 ListeningPost Post() { return {7, "127.0.0.1", "main", seconds(0)}; }
 
 // Vehicles 1 to `vehicles`, heard at 10 s.
-HeardFleet FleetOf(std::uint32_t vehicles) {
+FleetSnapshot FleetOf(std::uint32_t vehicles) {
   link::Observed observed;
   for (std::uint32_t id = 1; id <= vehicles; ++id) {
     observed.statuses.push_back(GivingWay(id));
     observed.beacons.push_back(BeaconOf(id));
   }
   observed.events.push_back({.kind = EventKind::kStarted, .epoch = kWorld, .time_s = 12.3});
-  HeardFleet fleet;
+  FleetSnapshot fleet;
   fleet.Fold(observed, seconds(10));
   return fleet;
 }
@@ -93,7 +93,7 @@ TEST(TopTable, ASilentVehicleStaysMarkedWithHowLongAndShowsNoStateItNoLongerHas)
 }
 
 TEST(TopTable, AForeignPeerIsShownByItsBeaconsAlone) {
-  HeardFleet fleet;
+  FleetSnapshot fleet;
   fleet.Fold({.beacons = {BeaconOf(5)}}, seconds(10));
   const auto row = TopLines(fleet, Post(), seconds(10), kWide)[3];
   for (const char* part : {"5", "give_way 1", "0.20", "no status heard"}) {
@@ -102,13 +102,13 @@ TEST(TopTable, AForeignPeerIsShownByItsBeaconsAlone) {
 }
 
 TEST(TopTable, ABodyThatSaysNothingHasARow) {
-  HeardFleet fleet;
+  FleetSnapshot fleet;
   fleet.Fold({.truths = {{.vehicle = VehicleId{3}, .epoch = kWorld}}}, seconds(10));
   EXPECT_THAT(TopLines(fleet, Post(), seconds(10), kWide)[3], HasSubstr("not heard"));
 }
 
 TEST(TopTable, NobodyHeardSaysWhatWasTriedAndWhatToCheck) {
-  const std::string text = NobodyHeard(Post(), seconds(5));
+  const std::string text = NothingHeard(Post(), seconds(5));
   for (const char* part : {"5.0 s", "domain 7", "127.0.0.1", "main", "--interface", "--qos"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
@@ -167,7 +167,7 @@ TEST(TopJson, NumbersThatJsonCannotSayAreLeftOut) {
   VehicleStatus status = GivingWay(1);
   status.forward_m_s = std::numeric_limits<double>::quiet_NaN();
   status.nearest_echo_m = std::numeric_limits<double>::infinity();
-  HeardFleet fleet;
+  FleetSnapshot fleet;
   fleet.Fold({.statuses = {status}}, seconds(10));
   const std::string json = TopJson(fleet, Post(), seconds(10));
   EXPECT_THAT(json, Not(HasSubstr("nan")));

@@ -275,10 +275,10 @@ TEST(ReplayVerdict, UnreadableOutweighsDifferentOutweighsIdentical) {
   other.difference.emplace();
   ReplayedFile bad;
   bad.finding = "is empty";
-  EXPECT_EQ(Judge({same}), Verdict::kPassed);
-  EXPECT_EQ(Judge({same, other}), Verdict::kFailed);
-  EXPECT_EQ(Judge({same, other, bad}), Verdict::kNotRun);
-  EXPECT_EQ(Judge({}), Verdict::kNotRun);
+  EXPECT_EQ(OverallVerdict({same}), Verdict::kPassed);
+  EXPECT_EQ(OverallVerdict({same, other}), Verdict::kFailed);
+  EXPECT_EQ(OverallVerdict({same, other, bad}), Verdict::kNotRun);
+  EXPECT_EQ(OverallVerdict({}), Verdict::kNotRun);
   EXPECT_THAT(ToJson({same, other, bad}), HasSubstr("\"finding\":\"is empty\""));
   EXPECT_THAT(ToText({bad}), HasSubstr("unreadable: 0 steps of 1 recording\n"));
 }

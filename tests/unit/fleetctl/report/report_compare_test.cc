@@ -101,7 +101,7 @@ TEST(ComparedSoaks, FaultsThatNoLongerHaveAnEffectAreFound) {
 TEST(ComparedSoaks, MoreViolationsAreFoundAndOneMoreIsChance) {
   SoakResult before = SampleSoak(1);
   SoakResult after = SampleSoak(2);
-  before.violations.resize(2, {1, VehicleId{1}, kNobody, "order", "", ""});
+  before.violations.resize(2, {1, VehicleId{1}, kNoVehicle, "order", "", ""});
   before.violations_counted = 2;
   after.violations.resize(3, before.violations[0]);
   after.violations_counted = 3;

@@ -22,7 +22,7 @@ Scenario TwoVehicles() {
   return scenario;
 }
 
-WorldEvent Event(EventKind kind, VehicleId vehicle = kNobody) {
+WorldEvent Event(EventKind kind, VehicleId vehicle = kNoVehicle) {
   WorldEvent event;
   event.kind = kind;
   event.vehicle = vehicle;
@@ -96,7 +96,7 @@ TEST_F(FleetWatchTest, DeathOverrulesAWorldThatSaysPassed) {
 }
 
 TEST_F(FleetWatchTest, HaltedAndArrivedAreSetsInOrder) {
-  watch_.Fold(Events({Event(EventKind::kHalted, kTwo), Event(EventKind::kWentOn, kTwo),
+  watch_.Fold(Events({Event(EventKind::kHalted, kTwo), Event(EventKind::kResumed, kTwo),
                       Event(EventKind::kHalted, kTwo), Event(EventKind::kArrived, kTwo),
                       Event(EventKind::kArrived, kOne)}));
   const Report report = watch_.MakeReport(std::nullopt);

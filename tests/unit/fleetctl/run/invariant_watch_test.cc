@@ -186,7 +186,7 @@ TEST_F(InvariantWatchTest, WhatTheObserverMissedIsNotHeldAgainstTheVehicle) {
   Observe(20);
   watch_->Finish(false);
   EXPECT_TRUE(Held());
-  EXPECT_EQ(watch_->TicksUnseen(), 30U - VehicleSight::kHeldTicks);
+  EXPECT_EQ(watch_->TicksUnseen(), 30U - VehicleObservation::kHeldTicks);
   EXPECT_EQ(watch_->TicksJudged() + watch_->TicksUnseen(), 70U);
 }
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "services/fleetctl/soak/soak_words.h"
+#include "services/fleetctl/soak/soak_format.h"
 #include "tests/unit/fleetctl/soak/soak_results.h"
 
 namespace giveway::fleetctl {
@@ -63,7 +63,7 @@ TEST(SoakPage, NothingOfAResultIsMarkup) {
   result.skipped_faults = {evil};
   result.faults[0].kind = result.faults[0].target = result.faults[0].observed_how = evil;
   result.faults[0].rule = evil;
-  result.violations = {{1, VehicleId{1}, kNobody, evil, evil, evil}};
+  result.violations = {{1, VehicleId{1}, kNoVehicle, evil, evil, evil}};
   result.histograms[0].name = evil;
   result.slopes[0].process = evil;
   result.accounting[0].writer = result.accounting[0].topic = evil;
@@ -84,7 +84,7 @@ TEST(SoakPage, LinksNowhere) {
 
 TEST(SoakPage, ShowsWhatMattersOfTooMuch) {
   SoakResult result = SampleSoak(1);
-  result.violations.assign(5000, {1, VehicleId{1}, kNobody, "contact", "again", ""});
+  result.violations.assign(5000, {1, VehicleId{1}, kNoVehicle, "contact", "again", ""});
   result.violations_counted = 70'000;
   const std::string html = ToHtml(result, {});
   EXPECT_LT(html.size(), 200'000U);
@@ -126,7 +126,7 @@ TEST(SoakBudgets, AreHeldAgainstTheQuantile) {
   EXPECT_TRUE(WithinBudgets(measured));
   measured.histogram.Add(201, 1);
   EXPECT_FALSE(WithinBudgets(measured));
-  EXPECT_THAT(BudgetWords(measured)[1], HasSubstr("EXCEEDED"));
+  EXPECT_THAT(FormatBudgets(measured)[1], HasSubstr("EXCEEDED"));
 }
 
 TEST(SoakVerdicts, AreExitCodes) {

@@ -66,7 +66,7 @@ TEST(SoakResume, TwoLegsAreOneSoak) {
 
 TEST(SoakResume, WhatWasBrokenBeforeStaysBroken) {
   SoakResult first = SampleSoak(1);
-  first.violations.push_back({50, VehicleId{1}, kNobody, "contact", "tick 5", ""});
+  first.violations.push_back({50, VehicleId{1}, kNoVehicle, "contact", "tick 5", ""});
   first.violations_counted = 1;
   EXPECT_EQ(Joined(first, SampleSoak(2)).verdict, SoakVerdict::kFailed);
   EXPECT_THAT(Joined(first, SampleSoak(2)).reasons, ElementsAre("contact: 1", "resumed at 180 s"));

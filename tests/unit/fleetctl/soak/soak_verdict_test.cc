@@ -36,7 +36,8 @@ class SoakVerdictTest : public testing::Test {
   }
   SoakResult Judged() const {
     SoakResult result;
-    Judge({seen_, schedule_, limits_, [this](SteadyTime, SteadyTime) { return pause_; }}, &result);
+    EvaluateSoak({seen_, schedule_, limits_, [this](SteadyTime, SteadyTime) { return pause_; }},
+                 &result);
     return result;
   }
 
@@ -95,7 +96,8 @@ TEST_F(SoakVerdictTest, TellsTheNarrowestMarginAndFiguresOfTheFleet) {
   status.vehicle = kTwo;
   status.timing.narrowest = ReactionMargin{Tick{5}, 0.3, 0.31};
   status.timing.budget_spent = 1;
-  FigureSummary& way = status.timing.figures[static_cast<std::size_t>(DriveFigure::kReactionWay)];
+  FigureSummary& way =
+      status.timing.figures[static_cast<std::size_t>(DriveFigure::kReactionDistance)];
   way.newest[way.count++] = 300'000;
   seen_.timing.Fold(status, 12);
   const SoakResult result = Judged();

@@ -34,8 +34,9 @@ class SoakVirtualTest : public testing::Test {
   SoakResult Soak() const {
     const SoakSeen seen = RunSoakVirtually(scenario_, schedule_, PhasesOf(90, 6));
     SoakResult result;
-    Judge({seen, schedule_, {}, [](SteadyTime, SteadyTime) { return Nanoseconds{0}; }, false},
-          &result);
+    EvaluateSoak(
+        {seen, schedule_, {}, [](SteadyTime, SteadyTime) { return Nanoseconds{0}; }, false},
+        &result);
     return result;
   }
 

@@ -31,7 +31,7 @@ faults::Fault On(VehicleId vehicle, faults::Kind kind, double for_s) {
 
 class SoakWatchTest : public testing::Test {
  protected:
-  void Say(const VehicleStatus& status, SteadyTime now) {
+  void Publish(const VehicleStatus& status, SteadyTime now) {
     link::Observed observed;
     observed.statuses.push_back(status);
     watch_.Fold(observed, now);
@@ -51,7 +51,8 @@ TEST(SoakWatch, OneIsWellThatDrivesOrStandsAsTrafficHasIt) {
   EXPECT_FALSE(IsWell(status)) << "cruises, and does not move";
   status.decision.rule = Rule::kGiveWay;
   EXPECT_TRUE(IsWell(status));
-  for (const Rule rule : {Rule::kRangesStale, Rule::kDeaf, Rule::kPeerLost, Rule::kNotRunning}) {
+  for (const Rule rule :
+       {Rule::kRangesStale, Rule::kUnidentifiedMotion, Rule::kPeerLost, Rule::kNotRunning}) {
     status.decision.rule = rule;
     EXPECT_FALSE(IsWell(status)) << Name(rule);
   }
@@ -61,14 +62,14 @@ TEST(SoakWatch, OneIsWellThatDrivesOrStandsAsTrafficHasIt) {
 }
 
 TEST_F(SoakWatchTest, WhoIsSilentForASecondIsNotWell) {
-  Say(Driving(kOne), seconds(1));
-  Say(Driving(kTwo), milliseconds(1900));
+  Publish(Driving(kOne), seconds(1));
+  Publish(Driving(kTwo), milliseconds(1900));
   EXPECT_TRUE(watch_.AreAllWell(seconds(2)));
   EXPECT_THAT(watch_.Unwell(milliseconds(2100)), ElementsAre(kOne));
 }
 
 TEST_F(SoakWatchTest, OfWhoIsAwayNothingIsExpectedAndOfNobodyNothingIsWell) {
-  Say(Driving(kOne), seconds(1));
+  Publish(Driving(kOne), seconds(1));
   watch_.SetAway(kTwo, true);
   EXPECT_TRUE(watch_.AreAllWell(seconds(1)));
   watch_.SetAway(kOne, true);
@@ -78,25 +79,25 @@ TEST_F(SoakWatchTest, OfWhoIsAwayNothingIsExpectedAndOfNobodyNothingIsWell) {
 
 TEST_F(SoakWatchTest, AFaultIsNoticedWhenTheFirstPeerSaysSo) {
   watch_.NoteBegin(0, seconds(10));
-  watch_.Fold(kTwo, {seconds(9), WordKind::kBeaconStale, kOne});
-  watch_.Fold(kOne, {milliseconds(10100), WordKind::kDeadlineMissed, kOne});
-  watch_.Fold(kTwo, {milliseconds(10100), WordKind::kBeaconHeard, kOne});
+  watch_.Fold(kTwo, {seconds(9), LogEventKind::kBeaconStale, kOne});
+  watch_.Fold(kOne, {milliseconds(10100), LogEventKind::kDeadlineMissed, kOne});
+  watch_.Fold(kTwo, {milliseconds(10100), LogEventKind::kBeaconHeard, kOne});
   EXPECT_FALSE(NoticedBy(Mechanism::kDeadline));
-  watch_.Fold(kTwo, {milliseconds(10200), WordKind::kDeadlineMissed, kOne});
-  watch_.Fold(kTwo, {milliseconds(10300), WordKind::kLivelinessLost, kOne});
-  watch_.Fold(kTwo, {milliseconds(10400), WordKind::kDeadlineMissed, kOne});
+  watch_.Fold(kTwo, {milliseconds(10200), LogEventKind::kDeadlineMissed, kOne});
+  watch_.Fold(kTwo, {milliseconds(10300), LogEventKind::kLivelinessLost, kOne});
+  watch_.Fold(kTwo, {milliseconds(10400), LogEventKind::kDeadlineMissed, kOne});
   EXPECT_EQ(NoticedBy(Mechanism::kDeadline), milliseconds(10200));
   EXPECT_EQ(NoticedBy(Mechanism::kLiveliness), milliseconds(10300));
   EXPECT_FALSE(NoticedBy(Mechanism::kBeaconAge));
 }
 
 TEST_F(SoakWatchTest, AFaultIsOverForItsVictimWhenThatIsWellAgain) {
-  Say(Driving(kOne), seconds(9));
+  Publish(Driving(kOne), seconds(9));
   watch_.NoteBegin(0, seconds(10));
   watch_.NoteEnd(0, seconds(12));
-  Say(Driving(kTwo), milliseconds(12600));
+  Publish(Driving(kTwo), milliseconds(12600));
   EXPECT_FALSE(watch_.Courses()[0].recovered) << "the other one drives";
-  Say(Driving(kOne), milliseconds(12700));
+  Publish(Driving(kOne), milliseconds(12700));
   EXPECT_EQ(watch_.Courses()[0].recovered, milliseconds(12700));
 }
 
@@ -105,27 +106,27 @@ TEST_F(SoakWatchTest, AFaultIsOpenUntilNothingMoreCanBeLearntOfIt) {
   watch_.NoteBegin(0, seconds(11));
   EXPECT_THAT(watch_.Open(), ElementsAre(2, 0));
   watch_.NoteEnd(0, seconds(13));
-  Say(Driving(kTwo), milliseconds(20100));
+  Publish(Driving(kTwo), milliseconds(20100));
   EXPECT_THAT(watch_.Open(), ElementsAre(0)) << "a killed vehicle does not recover";
-  Say(Driving(kOne), seconds(22));
+  Publish(Driving(kOne), seconds(22));
   EXPECT_THAT(watch_.Open(), ElementsAre(0)) << "a peer may still say that it noticed";
-  Say(Driving(kOne), seconds(24));
+  Publish(Driving(kOne), seconds(24));
   EXPECT_THAT(watch_.Open(), testing::IsEmpty());
 }
 
 TEST_F(SoakWatchTest, AHearersFaultIsSeenByWhatItCounts) {
   VehicleStatus status = Driving(kTwo);
   status.impaired.dropped_loss = 7;
-  Say(status, seconds(9));
+  Publish(status, seconds(9));
   watch_.NoteBegin(1, seconds(10));
-  Say(status, milliseconds(10500));
+  Publish(status, milliseconds(10500));
   EXPECT_EQ(watch_.Courses()[1].effect, "");
   VehicleStatus other = Driving(kOne);
   other.impaired.dropped_loss = 100;
-  Say(other, milliseconds(10600));
+  Publish(other, milliseconds(10600));
   EXPECT_EQ(watch_.Courses()[1].effect, "") << "not the target";
   status.impaired.dropped_loss = 9;
-  Say(status, seconds(11));
+  Publish(status, seconds(11));
   EXPECT_THAT(watch_.Courses()[1].effect, HasSubstr("counted 2 packets"));
 }
 
@@ -230,23 +231,23 @@ TEST_F(SoakWatchTest, AFaultOfTheWorldIsSeenWhenTheWorldSaysSo) {
 TEST_F(SoakWatchTest, ANewLifeOfAHearerIsCountedAnew) {
   VehicleStatus status = Driving(kTwo);
   status.impaired.dropped_loss = 70;
-  Say(status, seconds(9));
+  Publish(status, seconds(9));
   watch_.NoteBegin(1, seconds(10));
   status.impaired.dropped_loss = 1;
-  Say(status, seconds(11));
+  Publish(status, seconds(11));
   EXPECT_EQ(watch_.Courses()[1].effect, "");
   status.impaired.dropped_loss = 2;
-  Say(status, milliseconds(11500));
+  Publish(status, milliseconds(11500));
   EXPECT_NE(watch_.Courses()[1].effect, "");
 }
 
 TEST_F(SoakWatchTest, ACounterThatRisesLongAfterIsNotItsEffect) {
   VehicleStatus status = Driving(kTwo);
-  Say(status, seconds(9));
+  Publish(status, seconds(9));
   watch_.NoteBegin(1, seconds(10));
   watch_.NoteEnd(1, seconds(12));
   status.impaired.dropped_loss = 1;
-  Say(status, seconds(20));
+  Publish(status, seconds(20));
   EXPECT_EQ(watch_.Courses()[1].effect, "");
 }
 

@@ -35,7 +35,7 @@ Sighting* Find(Trial* trial, Mechanism mechanism) {
 StopwatchReport ReportOf(const std::vector<Trial>& trials, const Limits& limits) {
   StopwatchReport report;
   report.limits = limits;
-  report.cells = Judge(trials, limits);
+  report.cells = EvaluateTrials(trials, limits);
   return report;
 }
 

@@ -27,20 +27,20 @@ std::vector<Wave> Plan(Fault fault, std::uint32_t trials, std::uint32_t vehicles
 }
 
 TEST(StopwatchPlan, EveryTrialIsPlannedAndHalfTheFleetWatches) {
-  std::size_t strikes = 0;
+  std::size_t injections = 0;
   for (const Wave& wave : Plan(Fault::kKill, 10, 8)) {
-    std::set<VehicleId> victims;
-    for (const Strike& strike : wave.strikes) victims.insert(strike.victim);
-    EXPECT_EQ(victims.size(), wave.strikes.size());  // no vehicle is faulted twice
-    EXPECT_LE(victims.size(), 4U);
-    EXPECT_TRUE(std::ranges::is_sorted(wave.strikes, {}, &Strike::after));
-    strikes += wave.strikes.size();
+    std::set<VehicleId> targets;
+    for (const FaultInjection& injection : wave.injections) targets.insert(injection.target);
+    EXPECT_EQ(targets.size(), wave.injections.size());  // no vehicle is faulted twice
+    EXPECT_LE(targets.size(), 4U);
+    EXPECT_TRUE(std::ranges::is_sorted(wave.injections, {}, &FaultInjection::after));
+    injections += wave.injections.size();
   }
-  EXPECT_EQ(strikes, 10U);
+  EXPECT_EQ(injections, 10U);
 }
 
 TEST(StopwatchPlan, OfTwoOneWatches) {
-  for (const Wave& wave : Plan(Fault::kPause, 3, 2)) EXPECT_EQ(wave.strikes.size(), 1U);
+  for (const Wave& wave : Plan(Fault::kPause, 3, 2)) EXPECT_EQ(wave.injections.size(), 1U);
 }
 
 TEST(StopwatchPlan, ASeedRepeatsAndAnotherDoesNot) {
@@ -55,13 +55,13 @@ TEST(StopwatchPlan, ASeedRepeatsAndAnotherDoesNot) {
 
 // Whether a blackout makes `hearer` miss `sender` right after the fault is injected.
 bool IsDeafTo(VehicleId hearer, VehicleId sender, Fault fault, const Wave& wave,
-              const Strike& strike) {
+              const FaultInjection& injection) {
   const auto fleet = StopwatchVehicles(4);
   const std::string rules = BlackoutsOf(hearer, fault, std::vector<Wave>{wave}, fleet);
   if (rules.empty()) return false;
   const auto parsed = ParseImpairment(rules);
   EXPECT_THAT(parsed.problems, IsEmpty());
-  const double at_s = Seconds(wave.begin + strike.after) + 0.001;
+  const double at_s = Seconds(wave.begin + injection.after) + 0.001;
   const auto rule =
       std::ranges::find(parsed.impairment.rules, sender, &ImpairmentRule::from_vehicle);
   return rule != parsed.impairment.rules.end() &&
@@ -72,11 +72,11 @@ bool IsDeafTo(VehicleId hearer, VehicleId sender, Fault fault, const Wave& wave,
 
 TEST(StopwatchPlan, ACutIsBothWaysAndALossIsOneWay) {
   const Wave wave{seconds(5), seconds(20), {{VehicleId{3}, milliseconds(120)}}};
-  const Strike& strike = wave.strikes.front();
+  const FaultInjection& injection = wave.injections.front();
   for (const Fault fault : {Fault::kCut, Fault::kOneWay}) {
-    EXPECT_TRUE(IsDeafTo(VehicleId{1}, VehicleId{3}, fault, wave, strike));
-    EXPECT_FALSE(IsDeafTo(VehicleId{1}, VehicleId{2}, fault, wave, strike));
-    EXPECT_EQ(IsDeafTo(VehicleId{3}, VehicleId{1}, fault, wave, strike), fault == Fault::kCut);
+    EXPECT_TRUE(IsDeafTo(VehicleId{1}, VehicleId{3}, fault, wave, injection));
+    EXPECT_FALSE(IsDeafTo(VehicleId{1}, VehicleId{2}, fault, wave, injection));
+    EXPECT_EQ(IsDeafTo(VehicleId{3}, VehicleId{1}, fault, wave, injection), fault == Fault::kCut);
   }
   EXPECT_THAT(
       BlackoutsOf(VehicleId{1}, Fault::kKill, std::vector<Wave>{wave}, StopwatchVehicles(4)),
@@ -86,7 +86,7 @@ TEST(StopwatchPlan, ACutIsBothWaysAndALossIsOneWay) {
 TEST(StopwatchPlan, ABlackoutOutlastsTheLongestPromise) {
   const std::vector<Wave> waves = Plan(Fault::kOneWay, 4, 8);
   ASSERT_EQ(waves.size(), 1U);
-  const Nanoseconds last = waves[0].begin + waves[0].strikes.back().after;
+  const Nanoseconds last = waves[0].begin + waves[0].injections.back().after;
   EXPECT_GT(waves[0].end - last, PromisedWithin(Mechanism::kLease, kLimits) + seconds(1));
 }
 

@@ -17,7 +17,7 @@ TEST(StopwatchTable, AKilledVehicleMustBeSeenByAllButAGoodBye) {
        {Mechanism::kBeaconAge, Mechanism::kDeadline, Mechanism::kLiveliness, Mechanism::kLease}) {
     EXPECT_EQ(DutyOf(Fault::kKill, mechanism, Shipped()), Duty::kMust);
   }
-  EXPECT_EQ(DutyOf(Fault::kKill, Mechanism::kGoodBye, Shipped()), Duty::kNone);
+  EXPECT_EQ(DutyOf(Fault::kKill, Mechanism::kLeaveNotice, Shipped()), Duty::kNone);
 }
 
 TEST(StopwatchTable, AHungLoopIsInvisibleToTheParticipantsLease) {
@@ -48,7 +48,7 @@ TEST(StopwatchTable, APromiseIsTheLimitAndWhatLookingOnceAPeriodCosts) {
   EXPECT_EQ(PromisedWithin(Mechanism::kDeadline, Shipped()), milliseconds(200));
   EXPECT_EQ(PromisedWithin(Mechanism::kLiveliness, Shipped()), milliseconds(300));
   EXPECT_EQ(PromisedWithin(Mechanism::kLease, Shipped()), milliseconds(10'100));
-  EXPECT_EQ(PromisedWithin(Mechanism::kGoodBye, Shipped()), milliseconds(100));
+  EXPECT_EQ(PromisedWithin(Mechanism::kLeaveNotice, Shipped()), milliseconds(100));
 }
 
 TEST(StopwatchTable, EveryTermOfAPromiseHasAReason) {

@@ -17,7 +17,7 @@ FleetMember VehicleMember(int pid, std::uint32_t id, std::uint32_t domain,
 }
 
 FleetMember WorldMember(int pid, std::uint32_t domain) {
-  return {pid, true, kNobody, domain, "127.0.0.1", kHere};
+  return {pid, true, kNoVehicle, domain, "127.0.0.1", kHere};
 }
 
 TEST(LocalFleets, AreGroupedByDomainInterfaceAndNamespace) {

@@ -139,10 +139,10 @@ TEST_F(MadeProc, AVehicleIsKnownByTheIdThatTheWorldGaveIt) {
   ASSERT_EQ(members.size(), 4U);
   EXPECT_EQ(members[2].id, VehicleId{3});
   EXPECT_EQ(members[2].network_namespace, 4026531951U);
-  EXPECT_EQ(members[3].id, kNobody);
+  EXPECT_EQ(members[3].id, kNoVehicle);
   const auto situation = ReadSituation(folder_, 51);
   ASSERT_TRUE(situation);
-  EXPECT_EQ(situation->told.id, VehicleId{3});
+  EXPECT_EQ(situation->launch.id, VehicleId{3});
   EXPECT_EQ(situation->participant, "010f45d2a3b1000001000000");
 }
 
@@ -163,14 +163,14 @@ TEST_F(MadeProc, AnInterfaceWithoutCarrierHasNoAddressForTheLibrary) {
 TEST_F(MadeProc, WhatItWasToldIsOfTheCommandLineElseOfTheEnvironment) {
   const auto situation = ReadSituation(folder_, 42);
   ASSERT_TRUE(situation);
-  const Instructions& told = situation->told;
-  EXPECT_EQ(told.id, VehicleId{3});
-  EXPECT_EQ(told.domain, 7U);
-  EXPECT_EQ(told.interface, "eth0");
-  EXPECT_TRUE(told.partition_free);
-  ASSERT_EQ(told.impairment.rules.size(), 1U);
-  EXPECT_EQ(told.impairment.rules[0].loss, 1);
-  EXPECT_EQ(told.qos_file, (folder_ / "work/mine.xml").string());
+  const LaunchOptions& launch = situation->launch;
+  EXPECT_EQ(launch.id, VehicleId{3});
+  EXPECT_EQ(launch.domain, 7U);
+  EXPECT_EQ(launch.interface, "eth0");
+  EXPECT_TRUE(launch.partition_free);
+  ASSERT_EQ(launch.impairment.rules.size(), 1U);
+  EXPECT_EQ(launch.impairment.rules[0].loss, 1);
+  EXPECT_EQ(launch.qos_file, (folder_ / "work/mine.xml").string());
   ASSERT_TRUE(situation->profiles);
   EXPECT_TRUE(ParticipantNumber(*situation, qos::Policy::kPortBase));
 }

@@ -20,7 +20,7 @@ TrialEvidence Trial(std::uint32_t alarms, double detection_ms) {
   trial.vehicles = 4;
   trial.alive_s = 9;
   trial.alarms = {alarms, 1, 2};
-  trial.told_deadline = 5;
+  trial.reported_deadline = 5;
   trial.age_mean_ms = 55.5;
   trial.age_p99_ms = 150;
   trial.heard_bytes_s = 36000.25;

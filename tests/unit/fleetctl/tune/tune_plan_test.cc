@@ -9,7 +9,7 @@
 #include <iterator>
 #include <set>
 
-#include "services/qos/check.h"
+#include "services/qos/profile_check.h"
 
 namespace giveway::fleetctl {
 namespace {

@@ -20,7 +20,7 @@ constexpr SteadyTime AtTick(std::uint32_t tick) { return tick * kTick; }
 // A vehicle that receives vehicle 2 in every tick except where `silent` is true, and gets the given
 // QoS events; it skips the step of a tick where `stands` is true.
 std::string Recording(const std::function<bool(std::uint32_t)>& silent,
-                      const std::function<std::vector<QosEvent>(std::uint32_t)>& told = {},
+                      const std::function<std::vector<QosEvent>(std::uint32_t)>& events_at = {},
                       const std::function<bool(std::uint32_t)>& stands = {}) {
   const VehicleOptions options = test::OptionsWithoutUltrasonics();
   Vehicle brain(options, 42);
@@ -32,7 +32,7 @@ std::string Recording(const std::function<bool(std::uint32_t)>& silent,
     if (tick > 1 && !silent(tick)) {
       heard.push_back(test::Received(test::BeaconOf(2, tick - 1, {{0, 3}, 0}), AtTick(tick)));
     }
-    const std::vector<QosEvent> events = told ? told(tick) : std::vector<QosEvent>{};
+    const std::vector<QosEvent> events = events_at ? events_at(tick) : std::vector<QosEvent>{};
     const Inputs inputs{
         .now = AtTick(tick), .scan = test::ClearScan(tick), .beacons = heard, .events = events};
     const Outputs outputs = brain.Step(inputs);
@@ -79,13 +79,13 @@ TEST(TuneReading, ASilenceBeyondTheAgeLimitIsOneAlarm) {
 }
 
 TEST(TuneReading, AMissThatWasToldIsAnAlarmOfTheDeadline) {
-  const auto told = [](std::uint32_t tick) {
+  const auto events_at = [](std::uint32_t tick) {
     return tick == 20 ? std::vector<QosEvent>{{QosEventKind::kDeadlineMissed, VehicleId{2}}}
                       : std::vector<QosEvent>{};
   };
-  const VehicleReading reading = Read(Recording(Never, told), kAll);
+  const VehicleReading reading = Read(Recording(Never, events_at), kAll);
   EXPECT_EQ(reading.alarms.deadline, 1U);
-  EXPECT_EQ(reading.told_deadline, 1U);
+  EXPECT_EQ(reading.reported_deadline, 1U);
   EXPECT_EQ(reading.alarms.Total(), 1U);
 }
 
@@ -114,12 +114,12 @@ VehicleReading Watcher(std::uint32_t id, std::optional<Silenced> of_victim) {
 }
 
 TEST(TuneReading, DetectionRunsFromTheKillAndFromTheLastBeacon) {
-  VehicleReading victim;
-  victim.vehicle = VehicleId{9};
-  victim.last_step = AtTick(20);
+  VehicleReading target;
+  target.vehicle = VehicleId{9};
+  target.last_step = AtTick(20);
   const Killing kill{VehicleId{9}, AtTick(20) + std::chrono::milliseconds(30)};
   TrialEvidence evidence;
-  FoldReadings({victim, Watcher(1, Silenced{AtTick(24), AlarmCause::kDeadline}),
+  FoldReadings({target, Watcher(1, Silenced{AtTick(24), AlarmCause::kDeadline}),
                 Watcher(2, std::nullopt),                                  // never noticed
                 Watcher(3, Silenced{AtTick(19), AlarmCause::kDeadline})},  // by a false alarm
                {kill}, kTick, &evidence);

@@ -54,8 +54,8 @@ TEST(FleetDraw, FixesAndWheelErrorsLeaveTheRobotsAsTheyAreDrawn) {
   double least = 1, most = -1;
   OnManySeeds(options, [&](const Scenario& scenario) {
     for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
-      const VehicleProfile& profile = scenario.vehicles[i].profile;
-      const VehicleProfile& before = plain[at].vehicles[i].profile;
+      const RobotModel& profile = scenario.vehicles[i].profile;
+      const RobotModel& before = plain[at].vehicles[i].profile;
       EXPECT_EQ(profile.body_radius_m, before.body_radius_m);
       EXPECT_EQ(profile.wheel_slip, before.wheel_slip);
       EXPECT_EQ(profile.pose_fix.every_s, 1);

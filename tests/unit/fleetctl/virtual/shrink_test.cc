@@ -16,7 +16,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-const ShrinkProgress kGoOn = [](const VirtualCase& /*smallest*/, std::uint32_t /*tries*/) {
+const ShrinkProgress kGoOn = [](const VirtualCase& /*smallest*/, std::uint32_t /*attempts*/) {
   return true;
 };
 
@@ -120,10 +120,11 @@ TEST(Shrinking, TakesNothingFromARunThatHolds) {
 }
 
 TEST(Shrinking, StopsWhenItIsToldTo) {
-  const auto shrunk = Shrink(HeadOnAmongOthers(), [](const VirtualCase& /*smallest*/,
-                                                     std::uint32_t tries) { return tries < 3; });
+  const auto shrunk =
+      Shrink(HeadOnAmongOthers(),
+             [](const VirtualCase& /*smallest*/, std::uint32_t attempts) { return attempts < 3; });
   ASSERT_TRUE(shrunk);
-  EXPECT_EQ(shrunk->tries, 3U);
+  EXPECT_EQ(shrunk->attempts, 3U);
 }
 
 TEST(ReplayFlags, NameEverythingThatGoesWrong) {

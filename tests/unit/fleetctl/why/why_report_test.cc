@@ -41,7 +41,7 @@ TEST(WhyReport, PredictionAndProbeThatAgreeDecide) {
             "vehicle 1 (pid 101) hears vehicle 2 (pid 102) on fleet/beacon (predicted: hears; "
             "probed: heard 40 samples, the first after 31 ms)\n");
   ProcessSituation apart = Vehicle(2);
-  apart.told.area = "north";
+  apart.launch.area = "north";
   const WhyReport deaf = Made(Vehicle(1), apart, Heard(0));
   EXPECT_EQ(ExitCode(deaf), 1);
   EXPECT_FALSE(Verdict1(deaf).disagree);
@@ -54,7 +54,7 @@ TEST(WhyReport, PredictionAndProbeThatAgreeDecide) {
 TEST(WhyReport, WhatShouldBeHeardIsGivenTheTimeThatALossyChannelTakes) {
   EXPECT_GE(ListenSeconds(Predict(Vehicle(1), Vehicle(2), 2)), 10);
   ProcessSituation apart = Vehicle(2);
-  apart.told.area = "north";
+  apart.launch.area = "north";
   EXPECT_LE(ListenSeconds(Predict(Vehicle(1), apart, 2)), 3);
   std::vector<TopicOutlook> several = Predict(Vehicle(1), apart, 2);
   several.push_back(several.front());
@@ -67,7 +67,7 @@ TEST(WhyReport, DisagreementIsSaidAndIsNoSuccess) {
   EXPECT_TRUE(Verdict1(silent).disagree);
   EXPECT_EQ(Verdict1(silent).verdict, Verdict::kDoesNot);
   ProcessSituation apart = Vehicle(2);
-  apart.told.area = "north";
+  apart.launch.area = "north";
   const WhyReport loud = Made(Vehicle(1), apart, Heard(9));
   EXPECT_TRUE(Verdict1(loud).disagree);
   for (const WhyReport& report : {silent, loud}) {
@@ -84,15 +84,15 @@ TEST(WhyReport, AStoppedHearerIsDeafThoughAnotherInItsPlaceHears) {
   EXPECT_EQ(Verdict1(report).verdict, Verdict::kDoesNot);
   EXPECT_FALSE(Verdict1(report).disagree);
   EXPECT_EQ(Contradiction(report), "");
-  report.probe->own_word = OwnWord{.peers_heard = 1, .taken = 9};
+  report.probe->receiver_report = ReceiverReport{.peers_heard = 1, .taken = 9};
   EXPECT_NE(Contradiction(report), "");  // a stopped process reports nothing
 }
 
 TEST(WhyReport, TheHearersOwnWordCounts) {
   WhyReport report = Made(Vehicle(1), Vehicle(2), Heard(40));
-  report.probe->own_word = OwnWord{.taken = 9};
+  report.probe->receiver_report = ReceiverReport{.taken = 9};
   EXPECT_EQ(ExitCode(report), 0);
-  report.probe->own_word = OwnWord{.taken = 0};
+  report.probe->receiver_report = ReceiverReport{.taken = 0};
   EXPECT_EQ(ExitCode(report), 1);
   EXPECT_THAT(ToText(report), HasSubstr("it took no beacon at all"));
   report.probe->listened_ms = 500;  // it may be a moment behind the probe
@@ -112,8 +112,8 @@ TEST(WhyReport, AVehicleWithoutAPlaceIsTheReasonAndNoDisagreement) {
 
 TEST(WhyReport, AReasonOfSeveralTopicsIsToldOnce) {
   ProcessSituation world = Vehicle(9);
-  world.told.is_world = true;
-  world.told.domain = 8;
+  world.launch.is_world = true;
+  world.launch.domain = 8;
   world.ports.reset();
   const WhyReport report = Made(Vehicle(1), world, Heard(0));
   ASSERT_EQ(report.topics.size(), 2U);
@@ -128,13 +128,13 @@ TEST(WhyReport, WithoutAProbeThePredictionDecidesAndWithoutEitherNothingIsKnown)
   report.probe.emplace().trouble = "cannot enter its net namespace";
   EXPECT_EQ(ExitCode(report), 0);
   EXPECT_THAT(ToText(report), HasSubstr("not probed: cannot enter its net namespace"));
-  report.foretold = false;
+  report.predicted = false;
   EXPECT_EQ(ExitCode(report), 2);
 }
 
 TEST(WhyReport, AHearerElsewhereMayStandOtherwise) {
   WhyReport report = Made(Vehicle(1), Vehicle(2), Heard(40));
-  report.foretold = report.hearer_here = false;
+  report.predicted = report.hearer_here = false;
   EXPECT_EQ(Verdict1(report).verdict, Verdict::kNotKnown);
   EXPECT_EQ(ExitCode(report), 2);
 }
@@ -202,8 +202,8 @@ TEST(WhyReport, AForeignHearerIsJudgedByItsOwnReadersAsDiscovered) {
   probe.hearer_foreign = "Eclipse Cyclone DDS";
   probe.topics["fleet/beacon"].fits = true;
   WhyReport report = Made(Vehicle(2), Vehicle(1), probe);
-  report.foretold = report.hearer_here = false;
-  report.topics = TopicsBetween(Vehicle(2).told, Vehicle(1).told);
+  report.predicted = report.hearer_here = false;
+  report.topics = TopicsBetween(Vehicle(2).launch, Vehicle(1).launch);
   AddUnfit(&report);
   EXPECT_EQ(Verdict1(report).verdict, Verdict::kHears);
   EXPECT_EQ(ExitCode(report), 0);
@@ -225,8 +225,8 @@ TEST(WhyReport, AForeignSpeakerThatDoesNotMatchIsToldWhy) {
       "0110) does not match: ours is in main/*",
       "a writer of fleet/join in fleet (X) does not match: durability"};
   WhyReport report = Made(Vehicle(1), Vehicle(2), probe);
-  report.foretold = false;
-  report.topics = TopicsBetween(Vehicle(1).told, Vehicle(2).told);
+  report.predicted = false;
+  report.topics = TopicsBetween(Vehicle(1).launch, Vehicle(2).launch);
   AddUnfit(&report);
   EXPECT_EQ(ExitCode(report), 1);
   EXPECT_THAT(ToText(report), HasSubstr("a writer of fleet/beacon with no partition"));

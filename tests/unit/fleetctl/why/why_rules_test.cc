@@ -58,27 +58,27 @@ const std::vector<Case>& Cases() {
   static const std::vector<Case> cases = {
       {"domain_apart",
        [](Pair& pair) {
-         pair.speaker.told.domain = 8;
+         pair.speaker.launch.domain = 8;
          MakeParticipant(pair.speaker, 125);
        }},
       {"ports_apart",
        [](Pair& pair) { pair.speaker.profiles = SetWith("<port><offsetd0>4</offsetd0></port>"); }},
-      {"whitelist_apart", [](Pair& pair) { pair.speaker.told.interface = "eth0"; }},
-      {"whitelist_apart", [](Pair& pair) { pair.speaker.told.interface = "any"; }},
+      {"whitelist_apart", [](Pair& pair) { pair.speaker.launch.interface = "eth0"; }},
+      {"whitelist_apart", [](Pair& pair) { pair.speaker.launch.interface = "any"; }},
       {"whitelist_apart",
        [](Pair& pair) {
          for (ProcessSituation* one : {&pair.hearer, &pair.speaker}) {
            one->addresses->push_back({"eth0", kEthernetAddress + 1, 0xffffff00});
          }
-         pair.hearer.told.interface = "192.0.2.2";
-         pair.speaker.told.interface = "192.0.2.3";
+         pair.hearer.launch.interface = "192.0.2.2";
+         pair.speaker.launch.interface = "192.0.2.3";
        }},
       {"network_apart", [](Pair& pair) { pair.speaker.network_namespace = 4026531999; }},
       {"network_between",
        [](Pair& pair) {
          pair.speaker.network_namespace = 4026531999;
          pair.speaker.addresses = {{{"eth0", kEthernetAddress + 1, 0xffffff00}}};
-         pair.hearer.told.interface = pair.speaker.told.interface = "any";
+         pair.hearer.launch.interface = pair.speaker.launch.interface = "any";
        },
        Outlook::kNotKnown, Outlook::kNotKnown},
       {"shared_memory_apart",
@@ -99,11 +99,11 @@ const std::vector<Case>& Cases() {
          MakeParticipant(pair.hearer, 4);
          MakeParticipant(pair.speaker, 5);
        }},
-      {"partition_apart", [](Pair& pair) { pair.speaker.told.area = "north"; }},
+      {"partition_apart", [](Pair& pair) { pair.speaker.launch.area = "north"; }},
       {"partition_apart",
        [](Pair& pair) {
-         pair.speaker.told.area = "north";
-         pair.speaker.told.partition_free = true;
+         pair.speaker.launch.area = "north";
+         pair.speaker.launch.partition_free = true;
        }},
       {"deadline_mismatch",
        [](Pair& pair) {
@@ -146,19 +146,19 @@ const std::vector<Case>& Cases() {
          pair.speaker.environment = {"SKIP_DEFAULT_XML=1", "PATH=/bin"};
        },
        Outlook::kHears, Outlook::kHears},
-      {"impaired_deaf", [](Pair& pair) { pair.hearer.told.impairment.rules = {Loss(1)}; }},
-      {"impaired_much", [](Pair& pair) { pair.hearer.told.impairment.rules = {Loss(0.6)}; },
+      {"impaired_deaf", [](Pair& pair) { pair.hearer.launch.impairment.rules = {Loss(1)}; }},
+      {"impaired_much", [](Pair& pair) { pair.hearer.launch.impairment.rules = {Loss(0.6)}; },
        Outlook::kHears, Outlook::kHears},
       {"impaired_blackout",
        [](Pair& pair) {
-         pair.hearer.told.impairment.rules = {Loss(0)};
-         pair.hearer.told.impairment.rules[0].blackouts = {{3, 5}};
+         pair.hearer.launch.impairment.rules = {Loss(0)};
+         pair.hearer.launch.impairment.rules[0].blackouts = {{3, 5}};
        },
        Outlook::kNotKnown, Outlook::kNotKnown},
       {"impaired_for_a_time",
        [](Pair& pair) {
-         pair.hearer.told.impairment.rules = {Loss(1)};
-         pair.hearer.told.impairment.rules[0].from_s = 60;
+         pair.hearer.launch.impairment.rules = {Loss(1)};
+         pair.hearer.launch.impairment.rules[0].from_s = 60;
        },
        Outlook::kNotKnown, Outlook::kNotKnown},
   };
@@ -224,8 +224,8 @@ TEST(WhyPrediction, BothValuesOfAPolicyAreNamedWithTheirLines) {
 
 TEST(WhyPrediction, TheFirstCauseComesFirstWhateverElseIsWrong) {
   Pair pair;
-  pair.hearer.told.impairment.rules = {Loss(1)};
-  pair.speaker.told.area = "north";
+  pair.hearer.launch.impairment.rules = {Loss(1)};
+  pair.speaker.launch.area = "north";
   pair.speaker.state = 'T';
   pair.speaker.profiles_changed = true;
   pair.speaker.network_namespace = 4026531999;
@@ -243,8 +243,8 @@ TEST(WhyPrediction, AnImpairmentOfOthersIsNoReason) {
   for_third.to_vehicle = VehicleId{3};
   ImpairmentRule of_world = Loss(1);
   of_world.from = ImpairedSender::kWorld;
-  pair.hearer.told.impairment.rules = {of_third, for_third, of_world};
-  pair.speaker.told.impairment.rules = {Loss(1)};  // of what it hears itself
+  pair.hearer.launch.impairment.rules = {of_third, for_third, of_world};
+  pair.speaker.launch.impairment.rules = {Loss(1)};  // of what it hears itself
   EXPECT_THAT(RulesOf(Foretold(pair)), IsEmpty());
 }
 
@@ -252,13 +252,13 @@ TEST(WhyPrediction, OfTheImpairmentRulesThatFitTheLastCounts) {
   Pair pair;
   ImpairmentRule mild = Loss(0.1);
   mild.from = ImpairedSender::kVehicles;
-  pair.hearer.told.impairment.rules = {Loss(1), mild};
+  pair.hearer.launch.impairment.rules = {Loss(1), mild};
   EXPECT_THAT(RulesOf(Foretold(pair)), IsEmpty());
 }
 
 TEST(WhyPrediction, AnyInterfaceMeetsAWhitelistWhereThereIsOnlyTheLoopback) {
   Pair pair;
-  pair.hearer.told.interface = "any";
+  pair.hearer.launch.interface = "any";
   for (ProcessSituation* one : {&pair.hearer, &pair.speaker}) one->addresses->resize(1);
   EXPECT_THAT(RulesOf(Foretold(pair)), IsEmpty());
 }
@@ -276,7 +276,7 @@ TEST(WhyPrediction, SharedMemoryApartIsNoReasonBetweenTwoHosts) {
   pair.speaker.shared_memory = FileIdentity{23, 1};
   pair.speaker.network_namespace = 4026531999;
   pair.speaker.addresses = {{{"eth0", kEthernetAddress + 1, 0xffffff00}}};
-  pair.hearer.told.interface = pair.speaker.told.interface = "any";
+  pair.hearer.launch.interface = pair.speaker.launch.interface = "any";
   EXPECT_THAT(RulesOf(Foretold(pair)), ElementsAre("network_between"));
 }
 
@@ -289,16 +289,16 @@ TEST(WhyPrediction, WithoutAFactItRestsOnItIsNotKnown) {
     Pair pair;
     forget(pair.speaker);
     EXPECT_EQ(Foretold(pair).outlook, Outlook::kNotKnown);
-    pair.hearer.told.area = "north";  // and yet what is known may decide
+    pair.hearer.launch.area = "north";  // and yet what is known may decide
     EXPECT_EQ(Foretold(pair).outlook, Outlook::kCannot);
   }
 }
 
 TEST(WhyTopics, AVehicleReadsOfTheWorldWhatItIsFittedWith) {
-  Instructions vehicle;
+  LaunchOptions vehicle;
   vehicle.id = VehicleId{4};
   vehicle.radar = vehicle.signals = true;
-  Instructions world;
+  LaunchOptions world;
   world.is_world = true;
   std::vector<std::string> read;
   for (const TopicOutlook& topic : TopicsBetween(vehicle, world)) {

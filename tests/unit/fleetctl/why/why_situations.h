@@ -35,8 +35,8 @@ inline ProcessSituation Vehicle(std::uint32_t id) {
   ProcessSituation situation;
   situation.pid = static_cast<int>(100 + id);
   situation.pid_inside = situation.pid;
-  situation.told.id = VehicleId{id};
-  situation.told.domain = 7;
+  situation.launch.id = VehicleId{id};
+  situation.launch.domain = 7;
   situation.profiles = SetWith();
   situation.state = 'S';
   situation.network_namespace = 4026531840;

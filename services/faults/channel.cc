@@ -1,0 +1,180 @@
+#include "services/faults/channel.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "services/faults/kind_table.h"
+
+namespace giveway::faults {
+namespace {
+
+// Nothing is heard of `from` (kNoVehicle: of no other vehicle) in `times`.
+struct Cut {
+  VehicleId from = kNoVehicle;
+  double from_s = 0;
+  double to_s = 0;
+  std::vector<Blackout> times;
+};
+
+double Value(const Fault& fault, Quantity quantity) {
+  return *Get(Filled(fault.kind, fault.parameters), quantity);
+}
+
+bool Meets(const Fault& fault, VehicleId vehicle) {
+  return fault.target.what == Target::What::kAll || fault.target.vehicle == vehicle;
+}
+
+// Off for the first half of each period.
+std::vector<Blackout> TimesOf(const Fault& fault) {
+  if (fault.kind != Kind::kFlapping) return {{fault.at_s, fault.EndsAt_s()}};
+  const double period_s = Value(fault, Quantity::kPeriod);
+  std::vector<Blackout> times;
+  for (int i = 0; fault.at_s + i * period_s < fault.EndsAt_s(); ++i) {
+    const double from_s = fault.at_s + i * period_s;
+    times.push_back({from_s, std::min(from_s + period_s / 2, fault.EndsAt_s())});
+  }
+  return times;
+}
+
+// What the fault keeps `hearer` from hearing.
+std::optional<Cut> CutOf(const Fault& fault, VehicleId hearer) {
+  Cut cut{kNoVehicle, fault.at_s, fault.EndsAt_s(), {}};
+  switch (fault.kind) {
+    case Kind::kOneWayCut:
+      if (!Meets(fault, hearer)) return std::nullopt;
+      cut.from = fault.parameters.from.value_or(kNoVehicle);
+      break;
+    case Kind::kPartition:
+    case Kind::kFlapping:
+      if (!Meets(fault, hearer)) cut.from = fault.target.vehicle;
+      break;
+    default:
+      return std::nullopt;
+  }
+  cut.times = TimesOf(fault);
+  return cut;
+}
+
+// Adds what the fault asks of every vehicle's packets.
+void Apply(const Fault& fault, ImpairmentRule* rule) {
+  switch (fault.kind) {
+    case Kind::kLoss:
+      rule->loss = Value(fault, Quantity::kProbability);
+      break;
+    case Kind::kBurst:
+      rule->burst = Value(fault, Quantity::kProbability);
+      rule->burst_length = Value(fault, Quantity::kCount);
+      break;
+    case Kind::kDelay:
+      rule->delay_s = Value(fault, Quantity::kDelay);
+      break;
+    case Kind::kReorder:
+      rule->reorder = Value(fault, Quantity::kProbability);
+      rule->reorder_by_s = Value(fault, Quantity::kDelay);
+      break;
+    case Kind::kDuplicate:
+      rule->duplicate = Value(fault, Quantity::kProbability);
+      break;
+    case Kind::kCorrupt:
+      rule->corrupt = Value(fault, Quantity::kProbability);
+      break;
+    case Kind::kRate:
+      rule->rate_bytes_s = Value(fault, Quantity::kBytes);
+      break;
+    default:
+      break;
+  }
+}
+
+bool IsCut(Kind kind) {
+  return kind == Kind::kOneWayCut || kind == Kind::kPartition || kind == Kind::kFlapping;
+}
+
+// The hearer's rules. Between two moments at which something starts or ends one rule holds for all
+// vehicles, and after it, since the last that fits counts, one for each that is cut off alone.
+class Rules {
+ public:
+  Rules(const Schedule& schedule, VehicleId hearer) {
+    for (const Fault& fault : schedule) {
+      if (ActorOf(fault.kind) != Actor::kHearer) continue;
+      if (const auto cut = CutOf(fault, hearer)) {
+        cuts_.push_back(*cut);
+      } else if (!IsCut(fault.kind) && Meets(fault, hearer)) {
+        faults_.push_back(&fault);
+      }
+    }
+  }
+
+  std::vector<ImpairmentRule> Made(double since_s) const {
+    const std::vector<double> moments = Moments();
+    std::vector<ImpairmentRule> rules;
+    for (std::size_t i = 1; i < moments.size(); ++i) {
+      if (moments[i] > since_s) Between(moments[i - 1], moments[i], since_s, &rules);
+    }
+    return rules;
+  }
+
+ private:
+  std::vector<double> Moments() const {
+    std::set<double> moments;
+    for (const Fault* fault : faults_) moments.insert({fault->at_s, fault->EndsAt_s()});
+    for (const Cut& cut : cuts_) moments.insert({cut.from_s, cut.to_s});
+    return {moments.begin(), moments.end()};
+  }
+
+  static void Black(const Cut& cut, double from_s, double to_s, double since_s,
+                    ImpairmentRule* rule) {
+    for (const Blackout& time : cut.times) {
+      const double begin_s = std::max({time.from_s, from_s, since_s});
+      const double end_s = std::min(time.to_s, to_s);
+      if (begin_s < end_s) rule->blackouts.push_back({begin_s - since_s, end_s - since_s});
+    }
+  }
+
+  void Between(double from_s, double to_s, double since_s,
+               std::vector<ImpairmentRule>* rules) const {
+    ImpairmentRule all{.from = ImpairedSender::kVehicles};
+    all.from_s = std::max(from_s, since_s) - since_s;
+    all.to_s = to_s - since_s;
+    bool any = false;
+    for (const Fault* fault : faults_) {
+      if (fault->at_s > from_s || fault->EndsAt_s() < to_s) continue;
+      Apply(*fault, &all);
+      any = true;
+    }
+    std::map<VehicleId, ImpairmentRule> alone;
+    for (const Cut& cut : cuts_) {
+      if (cut.from_s > from_s || cut.to_s < to_s) continue;
+      any = any || cut.from == kNoVehicle;
+      if (cut.from == kNoVehicle) Black(cut, from_s, to_s, since_s, &all);
+    }
+    if (any) rules->push_back(all);
+    for (const Cut& cut : cuts_) {
+      if (cut.from_s > from_s || cut.to_s < to_s || cut.from == kNoVehicle) continue;
+      ImpairmentRule& rule = alone.try_emplace(cut.from, all).first->second;
+      rule.from = ImpairedSender::kOneVehicle;
+      rule.from_vehicle = cut.from;
+      Black(cut, from_s, to_s, since_s, &rule);
+    }
+    for (const auto& [from, rule] : alone) rules->push_back(rule);
+  }
+
+  std::vector<const Fault*> faults_;
+  std::vector<Cut> cuts_;
+};
+
+}  // namespace
+
+std::map<VehicleId, Impairment> ImpairmentOf(const Schedule& schedule,
+                                             std::span<const VehicleId> vehicles, double since_s) {
+  std::map<VehicleId, Impairment> impairments;
+  for (const VehicleId hearer : vehicles) {
+    std::vector<ImpairmentRule> rules = Rules(schedule, hearer).Made(since_s);
+    if (!rules.empty()) impairments[hearer].rules = std::move(rules);
+  }
+  return impairments;
+}
+
+}  // namespace giveway::faults

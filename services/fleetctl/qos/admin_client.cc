@@ -1,0 +1,109 @@
+#include "services/fleetctl/qos/admin_client.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <thread>
+
+#include "services/fleetctl/process/exit_codes.h"
+#include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/qos/awaited_answer.h"
+#include "services/runtime/process.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr auto kPoll = std::chrono::milliseconds(10);
+
+// Polls done() until it is true; false after `patience`, or after that many Ctrl-C.
+template <typename Done>
+bool WaitUntil(std::chrono::milliseconds patience, int interrupts, Done&& done) {
+  const SteadyTime end = SteadyNow() + patience;
+  while (!done()) {
+    if (SteadyNow() >= end || Interrupts::Count() >= interrupts) return false;
+    std::this_thread::sleep_for(kPoll);
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<VehicleId> AdminClient::Seek(const std::vector<VehicleId>& vehicles,
+                                         std::chrono::milliseconds patience) {
+  for (const VehicleId vehicle : vehicles) {
+    if (sought_.insert(vehicle).second) link_.Seek(vehicle);
+  }
+  std::vector<VehicleId> missing = vehicles;
+  WaitUntil(patience, 1, [&] {
+    std::erase_if(missing, [&](VehicleId vehicle) { return link_.Reaches(vehicle); });
+    return missing.empty();
+  });
+  return missing;
+}
+
+std::optional<AdminAnswer> AdminClient::Send(AdminRequest order, std::chrono::milliseconds patience,
+                                             bool insist) {
+  order.number = link::OperatorLink::NextNumber();
+  AwaitedAnswer answer(order.vehicle, order.number, has_key_);
+  if (!link_.Send(order)) return std::nullopt;
+  WaitUntil(patience, insist ? 2 : 1, [&] {
+    const SteadyTime now = SteadyNow();
+    for (const AdminAnswer& taken : link_.Take()) answer.Take(taken, now);
+    ReportRefusals();
+    return answer.IsThere(now);
+  });
+  return answer.Get();
+}
+
+void AdminClient::ReportRefusals() {
+  for (const Refusal& refusal : link_.TakeRefusals()) {
+    const auto line = refusal_log_.Note(refusal, SteadyNow());
+    if (line) std::fprintf(stderr, "%s\n", line->c_str());
+  }
+}
+
+int ReportNotReached(VehicleId vehicle, std::uint32_t domain) {
+  const bool interrupted = Interrupts::Count() > 0;
+  std::fprintf(stderr,
+               interrupted ? "interrupted before vehicle %u was heard in domain %u\n"
+                           : "vehicle %u is not heard in domain %u; give the domain and the "
+                             "interface that its fleet was started with\n",
+               Number(vehicle), domain);
+  return interrupted ? 1 : kCouldNotRun;
+}
+
+int ReportNoAnswer(VehicleId vehicle) {
+  const bool interrupted = Interrupts::Count() > 0;
+  std::fprintf(
+      stderr,
+      interrupted ? "interrupted before vehicle %u answered\n" : "vehicle %u does not answer\n",
+      Number(vehicle));
+  return interrupted ? 1 : kCouldNotRun;
+}
+
+int ReportRefused(const AdminAnswer& answer) {
+  const std::string who = answer.vehicle == kNoVehicle
+                              ? "the world"
+                              : "vehicle " + std::to_string(Number(answer.vehicle));
+  std::fprintf(stderr, "%s refuses orders of this fleetctl: %s; see --admin-key\n", who.c_str(),
+               answer.reason.c_str());
+  return kCouldNotRun;
+}
+
+int ReportNoneReached(std::uint32_t domain) {
+  const bool interrupted = Interrupts::Count() > 0;
+  std::fprintf(stderr,
+               interrupted ? "interrupted before anything was heard in domain %u\n"
+                           : "neither a vehicle nor a world is heard in domain %u; give the domain "
+                             "and the interface that its fleet was started with\n",
+               domain);
+  return interrupted ? 1 : kCouldNotRun;
+}
+
+AdminRequest ReportQosRequest(VehicleId vehicle) { return {.vehicle = vehicle, .profiles = {}}; }
+
+AdminRequest ApplyRequest(VehicleId vehicle, const QosProfiles& profiles) {
+  return {.vehicle = vehicle, .kind = AdminRequestKind::kApply, .profiles = profiles};
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,186 @@
+#include "services/vehicle/decision/decision_rules.h"
+
+#include <algorithm>
+
+#include "services/vehicle/estimation/injected_mutants.h"
+#include "services/vehicle/situation/echoes.h"
+#include "services/vehicle/situation/heard_places.h"
+#include "services/vehicle/situation/objects_ahead.h"
+
+namespace giveway {
+namespace {
+
+Proposal DeadStop(Rule rule) { return {.max_speed_m_s = 0, .may_turn = false, .rule = rule}; }
+
+// A dead stop for the nearest peer that this vehicle holds for and `applies` to.
+template <typename Predicate>
+std::optional<Proposal> HoldFor(Rule rule, const Situation& s, Predicate applies) {
+  if (!s.near.encounters.holds) return std::nullopt;
+  const PeerView* nearest = nullptr;
+  for (const PeerView& view : s.near.peers) {
+    if (!view.peer->encounter.holds || !applies(view)) continue;
+    if (nearest == nullptr || view.gap_m < nearest->gap_m) nearest = &view;
+  }
+  if (nearest == nullptr) return std::nullopt;
+  Proposal proposal = DeadStop(rule);
+  proposal.peer = nearest->peer->id;
+  // Silence has no tick that shows it: a lost peer is a cause without one.
+  proposal.cause_tick = nearest->lost ? kNoTick : nearest->peer->beacon.tick;
+  return proposal;
+}
+
+using RuleFunction = std::optional<Proposal> (*)(const Situation&);
+
+// As a list that the compiler knows, so that each rule becomes part of one function.
+template <RuleFunction... kRules>
+std::optional<Proposal> LowestOf(const Situation& s) {
+  std::optional<Proposal> lowest;
+  const auto keep = [&lowest](const std::optional<Proposal>& proposal) {
+    if (proposal && (!lowest || proposal->max_speed_m_s < lowest->max_speed_m_s)) {
+      lowest = proposal;
+    }
+  };
+  (keep(kRules(s)), ...);
+  return lowest;
+}
+
+// What was heard ahead, be it by none any more: a cause without a tick that shows it.
+std::optional<Proposal> HeardPlace(const Situation& s) {
+  const std::optional<double> free_m = FreeOfPlaces({1, 0}, s);
+  if (!free_m || MutantActive(Mutant::kObstacleIgnored)) return std::nullopt;
+  const double limit = SpeedToStopWithin(*free_m - kStandOff_m, s.own.reaction_s,
+                                         s.own.options.profile.deceleration_m_s2);
+  if (limit >= s.own.options.cruise_m_s) return std::nullopt;
+  return Proposal{.max_speed_m_s = limit, .may_turn = true, .rule = Rule::kObstacle};
+}
+
+}  // namespace
+
+std::optional<Proposal> Leaving(const Situation& s) {
+  if (!s.own.leaving && !s.own.halting) return std::nullopt;
+  return DeadStop(Rule::kLeaving);
+}
+
+std::optional<Proposal> NotRunning(const Situation& s) {
+  if (s.own.run_state == RunState::kRunning) return std::nullopt;
+  return DeadStop(Rule::kNotRunning);
+}
+
+std::optional<Proposal> RangesStale(const Situation& s) {
+  if (s.own.blind_sensor < 0) return std::nullopt;
+  Proposal proposal = DeadStop(Rule::kRangesStale);
+  proposal.sensor = s.own.blind_sensor < static_cast<int>(kSensorCount) ? s.own.blind_sensor : -1;
+  return proposal;
+}
+
+std::optional<Proposal> Arrived(const Situation& s) {
+  if (!s.own.arrived) return std::nullopt;
+  return DeadStop(Rule::kArrived);
+}
+
+std::optional<Proposal> GiveWay(const Situation& s) {
+  return HoldFor(Rule::kGiveWay, s,
+                 [](const PeerView& view) { return !view.lost && view.has_priority; });
+}
+
+std::optional<Proposal> NotGranted(const Situation& s) {
+  return HoldFor(Rule::kNotGranted, s,
+                 [](const PeerView& view) { return !view.lost && !view.has_priority; });
+}
+
+std::optional<Proposal> PeerLost(const Situation& s) {
+  return HoldFor(Rule::kPeerLost, s, [](const PeerView& view) { return view.lost; });
+}
+
+std::optional<Proposal> Signal(const Situation& s) {
+  if (!s.own.stop_line || MutantActive(Mutant::kSignalIgnored)) return std::nullopt;
+  return Proposal{.max_speed_m_s = SpeedToStopWithin(s.own.stop_line->free_m, s.own.reaction_s,
+                                                     s.own.options.profile.deceleration_m_s2),
+                  .may_turn = false,
+                  .rule = Rule::kSignal,
+                  .cause_tick = s.own.stop_line->tick};
+}
+
+std::optional<Proposal> Object(const Situation& s) {
+  const std::optional<ObjectAhead> object = NearestObstacle(s.own.objects, s);
+  if (!object) return std::nullopt;
+  const double limit = SpeedToStopWithin(object->free_m - kStandOff_m, s.own.reaction_s,
+                                         s.own.options.profile.deceleration_m_s2);
+  if (limit >= s.own.options.cruise_m_s) return std::nullopt;
+  return Proposal{
+      .max_speed_m_s = limit, .may_turn = true, .rule = Rule::kObject, .cause_tick = object->tick};
+}
+
+std::optional<Proposal> Deaf(const Situation& s) {
+  if (!s.movers.unidentified || MutantActive(Mutant::kMoverIgnored)) return std::nullopt;
+  Proposal proposal = DeadStop(Rule::kUnidentifiedMotion);
+  proposal.sensor = s.movers.unidentified_sensor;
+  proposal.cause_tick = s.own.tick;
+  return proposal;
+}
+
+std::optional<Proposal> Obstacle(const Situation& s) {
+  std::optional<Proposal> nearest;
+  for (const std::size_t i : BitsOf(s.own.ranges.Echoes())) {
+    const std::optional<double> free_m = FreeAhead(i, s);
+    if (!free_m || MutantActive(Mutant::kObstacleIgnored)) continue;
+    const double limit = SpeedToStopWithin(*free_m - kStandOff_m, s.own.reaction_s,
+                                           s.own.options.profile.deceleration_m_s2);
+    if (limit >= s.own.options.cruise_m_s || (nearest && limit >= nearest->max_speed_m_s)) continue;
+    nearest = Proposal{.max_speed_m_s = limit,
+                       .may_turn = true,
+                       .rule = Rule::kObstacle,
+                       .sensor = static_cast<int>(i),
+                       .cause_tick = s.own.tick};
+  }
+  const std::optional<Proposal> heard = HeardPlace(s);
+  return heard && (!nearest || heard->max_speed_m_s < nearest->max_speed_m_s) ? heard : nearest;
+}
+
+std::optional<Proposal> KeepClear(const Situation& s) {
+  std::optional<Proposal> lowest;
+  for (const PeerView& view : s.near.peers) {
+    if (view.free_m >= s.own.slows_m || MutantActive(Mutant::kClaimIgnored)) continue;
+    if (MutantActive(Mutant::kBrakesTooLate) && view.free_m > 0) continue;
+    const double limit =
+        SpeedToStopWithin(view.free_m, s.own.reaction_s, s.own.options.profile.deceleration_m_s2);
+    if (limit >= s.own.options.cruise_m_s || (lowest && limit >= lowest->max_speed_m_s)) continue;
+    lowest = Proposal{.max_speed_m_s = limit,
+                      .may_turn = true,
+                      .rule = Rule::kKeepClear,
+                      .peer = view.peer->id,
+                      .cause_tick = view.peer->beacon.tick};
+  }
+  return lowest;
+}
+
+std::optional<Proposal> KeepBoxClear(const Situation& s) {
+  if (!s.near.blocked_box) return std::nullopt;
+  const double limit = SpeedToStopWithin(s.near.blocked_box->begin_m - kInHand_m, s.own.reaction_s,
+                                         s.own.options.profile.deceleration_m_s2);
+  if (limit >= s.own.options.cruise_m_s) return std::nullopt;
+  return Proposal{.max_speed_m_s = limit,
+                  .may_turn = true,
+                  .rule = Rule::kKeepClear,
+                  .peer = s.near.blocked_box->by,
+                  .cause_tick = s.near.blocked_box->beacon_tick};
+}
+
+// The more informative reason comes first in each list.
+std::optional<Proposal> MostRestrictive(const Situation& s) {
+  switch (s.own.options.behaviour) {
+    case Behaviour::kLectureAvoid:
+    case Behaviour::kStockAvoid:
+    case Behaviour::kLecturePrinted:
+      return LowestOf<Leaving, NotRunning, RangesStale, Arrived, Lost>(s);
+    case Behaviour::kLectureYield:
+      return LowestOf<Leaving, NotRunning, RangesStale, Arrived, Lost, GiveWay, PeerLost, Deaf,
+                      Obstacle>(s);
+    case Behaviour::kCooperative:
+      break;
+  }
+  return LowestOf<Leaving, NotRunning, RangesStale, Arrived, Lost, Unsure, Signal, GiveWay,
+                  NotGranted, PeerLost, Deaf, KeepClear, KeepBoxClear, Obstacle, Object>(s);
+}
+
+}  // namespace giveway

@@ -1,0 +1,98 @@
+#include "services/vehicle/estimation/signal_table.h"
+
+#include <algorithm>
+
+#include "services/types/math/math.h"
+#include "services/vehicle/estimation/scan_check.h"
+
+namespace giveway {
+namespace {
+
+constexpr double kLineMargin_m = 0.15;              // left between shell and line
+constexpr double kCosSameWay = 0.7071067811865476;  // 45 degrees
+
+bool IsFresh(SteadyTime heard, SteadyTime now) { return now - heard <= kSignalAgeLimit; }
+
+// Metres along the path until the shell is over the stop line; empty if the path does not cross it,
+// crosses it in the opposite direction, or the shell is over it already.
+std::optional<double> DistanceToLine(const SignalState& state, const Approach& approach) {
+  const Vec2 along = approach.path.direction_world;
+  const Vec2 travel = {Cos(state.travel_rad), Sin(state.travel_rad)};
+  if (Dot(along, travel) < kCosSameWay) return std::nullopt;
+  const Vec2 line = state.line_to_world - state.line_from_world;
+  const Vec2 offset = state.line_from_world - approach.path.from_world;
+  const double slope = Cross(along, line);
+  if (slope < 1e-9 && slope > -1e-9) return std::nullopt;
+  const double on_line = Cross(offset, along) / slope;  // 0 at one end of the line, 1 at the other
+  if (on_line < 0 || on_line > 1) return std::nullopt;
+  const double distance = Cross(offset, line) / slope - approach.body_radius_m;
+  if (distance < 0 || distance > approach.distance_to_goal_m) return std::nullopt;
+  return distance;
+}
+
+}  // namespace
+
+SignalTable::Head* SignalTable::Find(SignalId id, SteadyTime now) {
+  for (Head& head : Heads()) {
+    if (head.state.id == id) return &head;
+  }
+  if (count_ < kMaxSignals) {
+    heads_[count_] = {};
+    return &heads_[count_++];
+  }
+  for (Head& head : Heads()) {
+    if (IsFresh(head.heard, now)) continue;
+    head = {};
+    return &head;
+  }
+  return nullptr;
+}
+
+bool SignalTable::Take(const SignalState& state, WorldEpoch epoch, SteadyTime now) {
+  if (epoch == kNoEpoch || state.epoch != epoch || !IsBelievable(state)) return false;
+  Head* head = Find(state.id, now);
+  if (head == nullptr) return false;
+  const bool known = head->state.id == state.id;
+  // A state far older than the last is of a head that restarted its count, not a late one.
+  if (known && state.tick <= head->state.tick && IsFresh(head->heard, now)) return false;
+  if (state.phase != SignalPhase::kYellow) head->weighed = head->clears = false;
+  head->state = state;
+  head->heard = now;
+  return true;
+}
+
+std::optional<StopLine> SignalTable::MustStopAt(const Approach& approach, SteadyTime now) {
+  std::optional<StopLine> nearest;
+  for (Head& head : Heads()) {
+    if (!IsFresh(head.heard, now)) {
+      head.weighed = head.clears = false;
+      continue;
+    }
+    const SignalPhase phase = head.state.phase;
+    if (phase != SignalPhase::kRed && phase != SignalPhase::kYellow) continue;
+    const auto distance = DistanceToLine(head.state, approach);
+    if (!distance) continue;
+    if (phase == SignalPhase::kYellow && !head.weighed) {
+      head.weighed = true;
+      head.clears = *distance < approach.stopping_m;
+    }
+    if (phase == SignalPhase::kYellow && head.clears) continue;
+    const double free_m = *distance - kLineMargin_m;
+    if (!nearest || free_m < nearest->free_m) nearest = {free_m, head.state.id, head.state.tick};
+  }
+  return nearest;
+}
+
+void SignalTable::AddTo(StateHash* hash) const {
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Head& head = heads_[i];
+    hash->Add(head.state.id);
+    hash->Add(head.state.tick);
+    hash->Add(head.state.phase);
+    hash->Add(head.heard.count());
+    hash->Add(head.weighed);
+    hash->Add(head.clears);
+  }
+}
+
+}  // namespace giveway

@@ -1,0 +1,46 @@
+#include "services/vehicle/mover_watch.h"
+
+#include "services/vehicle/situation/echoes.h"
+
+namespace giveway {
+namespace {
+
+// Turning faster than this, and for so many ticks after it, echoes do not show which of both moves.
+constexpr double kSharpTurn_rad_s = 0.25;
+constexpr std::uint32_t kTurnEchoTicks = 6;
+// How long after the last unexplained motion a deaf vehicle stands; by id, so that two of them do
+// not start as one.
+constexpr double kUnidentifiedHold_s = 1.0;
+constexpr double kDeafStagger_s = 0.5;
+constexpr std::uint32_t kDeafStaggerSteps = 8;
+
+}  // namespace
+
+bool NoteTurning(double turn_rad_s, Tick tick, MoverWatch* watch) {
+  if (turn_rad_s > kSharpTurn_rad_s || turn_rad_s < -kSharpTurn_rad_s) watch->turned_tick = tick;
+  return watch->turned_tick != kNoTick && TicksBetween(watch->turned_tick, tick) <= kTurnEchoTicks;
+}
+
+Movers DetectMovers(const OwnView& s, const PeersNow& near, MoverWatch* watch,
+                    TrustCounters* counters) {
+  bool moving = false;
+  const double near_m = watch->unidentified ? s.options.gate_exit_m : s.options.gate_enter_m;
+  for (const std::size_t i : BitsOf(s.turns ? 0 : s.ranges.Echoes() & ~near.explained)) {
+    if (s.ranges[i].range_m >= near_m || !MovesByItself(i, s)) continue;
+    moving = true;
+    watch->unidentified_sensor = static_cast<int>(i);
+  }
+  if (moving) {
+    counters->echo_without_beacon += watch->unidentified ? 0 : 1;
+    watch->unidentified = true;
+    watch->unidentified_since = s.now;
+  }
+  const double hold_s =
+      kUnidentifiedHold_s + kDeafStagger_s * (Number(s.options.id) % kDeafStaggerSteps);
+  if (watch->unidentified && Seconds(s.now - watch->unidentified_since) > hold_s)
+    watch->unidentified = false;
+  return {.unidentified = watch->unidentified,
+          .unidentified_sensor = watch->unidentified ? watch->unidentified_sensor : -1};
+}
+
+}  // namespace giveway

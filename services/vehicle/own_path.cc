@@ -1,0 +1,166 @@
+#include "services/vehicle/own_path.h"
+
+#include <algorithm>
+#include <array>
+
+#include "services/vehicle/decision/detour.h"
+#include "services/vehicle/estimation/injected_mutants.h"
+#include "services/vehicle/situation/blocked.h"
+#include "services/vehicle/situation/heard_places.h"
+
+namespace giveway {
+namespace {
+
+// After driving for so long without progress, a vehicle plans a detour.
+constexpr double kPassedAtDistance_m = 1.2;
+constexpr double kNoProgress_s = 6;
+constexpr double kProgressTimeout_s = 15;
+constexpr double kProgress_m = 0.1;
+// In a queue, behind a vehicle that makes no progress either, patience lasts this many times
+// longer.
+constexpr double kQueued_m = 1;
+constexpr std::uint32_t kQueuePatience = 8;
+constexpr std::uint32_t kDetourTicks = 10;  // a detour is planned again after so many
+constexpr std::uint32_t kAwayTicks = 60;    // it drives away from what stopped it for so many
+constexpr std::uint32_t kStuckTicks = 200;  // and may be stopped again, along a wall, for so many
+// Moved no further than this, for so many ticks, it is stuck.
+constexpr double kStuckWithin_m = 0.1;
+constexpr std::uint32_t kStuckAfterTicks = 200;
+
+// A waypoint that is occupied is passed at a distance, once it cannot be reached.
+bool PassesWaypoint(std::uint32_t waypoint, const Route& route, bool detours, Vec2 position_world) {
+  if (waypoint >= route.count) return false;
+  const double away_m = Norm(route.waypoints_world[waypoint] - position_world);
+  return away_m <= route.radius_m || (detours && away_m <= kPassedAtDistance_m);
+}
+
+void Restart(GoalProgress* progress) {
+  progress->nearest_m = kNoGoal_m;
+  progress->no_progress_ticks = 0;
+}
+
+void PassWaypoints(const Route& of, Vec2 position_world, RouteProgress* route,
+                   GoalProgress* progress) {
+  const bool detours = progress->detour_tick != kNoTick;
+  for (std::uint32_t i = 0; i < of.count; ++i) {
+    if (!PassesWaypoint(route->waypoint, of, detours, position_world)) return;
+    ++route->waypoint;
+    if (of.loop && route->waypoint == of.count) route->waypoint = 0;
+    Restart(progress);
+  }
+}
+
+void NoteArrival(const OwnCourse& course, const OwnPose& pose, const VehicleOptions& options,
+                 RouteProgress* route, GoalProgress* progress) {
+  // Well inside the radius, so that the truth is inside too.
+  if (course.stops_there && course.distance_to_goal_m <= options.goal.radius_m / 2) {
+    route->arrived = true;
+  }
+  // A fix may say that it was not there.
+  const bool shown = options.profile.pose_fix.Fitted();
+  const double surely_m = course.distance_to_goal_m - SigmaPosition(pose.covariance);
+  if (!route->arrived || !shown || surely_m <= options.goal.radius_m) return;
+  route->arrived = false;
+  Restart(progress);
+}
+
+}  // namespace
+
+OwnCourse UpdatePath(const OwnPose& pose, const VehicleOptions& options, RouteProgress* route,
+                     GoalProgress* progress) {
+  const Vec2 position = pose.world_from_body.position_world;
+  PassWaypoints(options.route, position, route, progress);
+  OwnCourse course{.path = {position, pose.forward_world}, .distance_to_goal_m = kNoGoal_m};
+  const bool on_route = route->waypoint < options.route.count;
+  if (on_route || options.goal.set) {
+    const Vec2 to =
+        on_route ? options.route.waypoints_world[route->waypoint] : options.goal.at_world;
+    const Vec2 displacement = to - position;
+    course.distance_to_goal_m = Norm(displacement);
+    course.stops_there = !on_route;
+    if (course.distance_to_goal_m > 0) {
+      course.path.direction_world = (1 / course.distance_to_goal_m) * displacement;
+    }
+    NoteArrival(course, pose, options, route, progress);
+  }
+  course.path_rad = route->bearing.Of(course.path.direction_world);
+  course.arrived = route->arrived;
+  return course;
+}
+
+namespace {
+
+// Neither waiting for a peer nor in a queue, it makes no progress: stuck between a few that block
+// each other, or in front of something that it hears and cannot locate. A queue that closes to a
+// ring does not count as one. Returns `escape_attempts` of Escape.
+int NoteStuck(const OwnView& s, bool no_progress, bool queues, bool in_ring,
+              GoalProgress* progress) {
+  const Vec2 moved = s.world_from_body.position_world - progress->stuck_world;
+  if (!no_progress || SquaredNorm(moved) > kStuckWithin_m * kStuckWithin_m) {
+    progress->stuck_world = s.world_from_body.position_world;
+    progress->stuck_ticks = 0;
+    return -1;
+  }
+  if (queues && !in_ring) return -1;
+  progress->stuck_ticks += s.new_tick ? 1 : 0;
+  if (progress->stuck_ticks < kStuckAfterTicks) return -1;
+  return static_cast<int>((progress->stuck_ticks - kStuckAfterTicks) / kAwayTicks);
+}
+
+// Where the path past all standing bodies leads first.
+std::optional<Vec2> PathAround(const OwnView& s, std::span<const PeerView> peers) {
+  std::array<KeepOut, 64> discs;
+  std::size_t count = 0;
+  for (const PeerView& view : peers) {
+    const double room_m = RoomBeside(view, s);
+    if (count == discs.size() || !view.standing) continue;
+    discs[count++] = {view.position_world, room_m};
+  }
+  return FirstTurn(s.world_from_body.position_world, Toward(s), {discs.data(), count});
+}
+
+}  // namespace
+
+Escape Detour(const OwnView& s, const PeersNow& near, const LastStep& last, GoalProgress* of) {
+  GoalProgress& progress = *of;
+  Escape escape;
+  if (s.distance_to_goal_m < progress.nearest_m - kProgress_m) {
+    progress.nearest_m = s.distance_to_goal_m;
+    progress.no_progress_ticks = 0;
+    progress.detour_tick = kNoTick;
+  }
+  const Rule rule = last.decision.rule;
+  if (IsGiveWay(rule) || rule == Rule::kSignal || s.lost) return escape;
+  // No detours either while it receives no ranges. Not changed for exact ultrasonics: their
+  // recordings must replay bit for bit.
+  if (rule == Rule::kRangesStale && Remembers(s.options)) return escape;
+  const bool queues = progress.stuck_ticks < kStuckAfterTicks &&
+                      std::ranges::any_of(near.peers, [](const PeerView& view) {
+                        return view.leads && view.gap_m < kQueued_m;
+                      });
+  // Nor does it look about there more often, or it would end up across the lane.
+  if (queues && Number(s.tick) % kQueuePatience != 0) return escape;
+  progress.no_progress_ticks += s.new_tick ? 1 : 0;
+  if (s.distance_to_goal_m >= kNoGoal_m || s.arrived) return escape;
+  if (MutantActive(Mutant::kPatienceDropped)) progress.no_progress_ticks += 1000;
+  const std::uint32_t away_ticks =
+      progress.away_tick == kNoTick ? kStuckTicks + 1 : TicksBetween(progress.away_tick, s.tick);
+  const double no_progress_s = Seconds(progress.no_progress_ticks * s.options.tick_period);
+  const bool no_progress = no_progress_s >= kNoProgress_s || away_ticks <= kStuckTicks;
+  escape.no_progress = no_progress;
+  escape.long_no_progress = no_progress_s >= kProgressTimeout_s;
+  const bool in_ring = queues && no_progress && IsBehind(last.blocked_by, s.options.id, near.peers);
+  escape.escape_attempts = NoteStuck(s, no_progress, queues, in_ring, &progress);
+  if (!no_progress) return escape;
+  if (away_ticks <= kAwayTicks) escape.away_rad = progress.away_rad;
+  if (progress.detour_tick == kNoTick ||
+      TicksBetween(progress.detour_tick, s.tick) >= kDetourTicks) {
+    const std::optional<Vec2> turn = PathAround(s, near.peers);
+    progress.detour_tick = turn ? s.tick : kNoTick;
+    if (turn) progress.detour_world = *turn;
+  }
+  if (progress.detour_tick != kNoTick) escape.detour_world = progress.detour_world;
+  return escape;
+}
+
+}  // namespace giveway

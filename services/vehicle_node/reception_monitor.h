@@ -1,0 +1,31 @@
+// Whether a vehicle can still hear its world, and what helps where it cannot.
+#pragma once
+
+#include <cstdint>
+
+#include "services/link/drive_link.h"
+#include "services/vehicle_node/scan_watch.h"
+
+namespace giveway {
+
+enum class Remedy : std::uint8_t {
+  kNone,
+  kNewParticipant,  // the world speaks and is not heard: the vehicle restarts itself
+  kNewProcess,      // its interface is another now: it ends, for the restart policy
+};
+
+class ReceptionMonitor {
+ public:
+  ReceptionMonitor(const link::DriveLink* link, SteadyTime now) : link_(*link), scans_(now) {}
+
+  // Once a turn; `scan`: one came. Says in the log why, where there is a remedy.
+  Remedy Update(SteadyTime now, bool scan);
+
+ private:
+  const link::DriveLink& link_;
+  ScanWatch scans_;
+  SteadyTime last_scan_{0};
+  SteadyTime next_check_{0};
+};
+
+}  // namespace giveway
