@@ -187,9 +187,9 @@ TEST_F(RingReplayTest, AFlippedBitBehindTheImageIsFound) {
 TEST_F(RingReplayTest, AnImageThatIsNoBrainOrAnotherIsRefused) {
   const std::string state = Image().state;
   Image().hash ^= 1;
-  EXPECT_THAT(ReplayOf(second_).finding, HasSubstr("not the one recorded"));
+  EXPECT_THAT(ReplayOf(second_).finding, HasSubstr("differs from the recorded hash"));
   Image().state = "no brain";
-  EXPECT_THAT(ReplayOf(second_).finding, HasSubstr("cannot be in"));
+  EXPECT_THAT(ReplayOf(second_).finding, HasSubstr("cannot restore"));
   Image().state = state;
   Image().options.id = VehicleId{7};
   EXPECT_THAT(ReplayOf(second_).finding, HasSubstr("another vehicle's"));
