@@ -187,10 +187,6 @@ std::vector<SummaryRow> SummaryOf(const SoakResult& result) {
       {"machine's pauses",
        fmt::format("{}, {:.2f} % of the time, the longest {:.3f} s", result.pauses.count,
                    result.pauses.share * 100, result.pauses.longest_s)}};
-  if (result.observers_renewed > 0) {
-    rows.push_back({"observer", fmt::format("became deaf {} times, and took a new participant",
-                                            result.observers_renewed)});
-  }
   for (const KeptRings& kept : result.kept_rings) {
     rows.push_back({"rings kept", fmt::format("at {:.1f} s, by {} of {} vehicles", kept.time_s,
                                               kept.kept, result.vehicles)});

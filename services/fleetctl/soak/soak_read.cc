@@ -211,7 +211,6 @@ void ReadFigures(const schema::SoakReport& message, SoakResult* result, Complain
     result->accounting.push_back(AccountingFrom(row, field, complaints));
   }
   result->lives_too_short = CountOf(message.lives_too_short(), "lives_too_short", complaints);
-  result->observers_renewed = CountOf(message.observers_renewed(), "observers_renewed", complaints);
   result->pauses = {CountOf(message.pauses().count(), "pauses.count", complaints),
                     message.pauses().total_s(), message.pauses().longest_s(),
                     message.pauses().share()};

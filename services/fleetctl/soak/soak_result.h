@@ -197,8 +197,7 @@ struct SoakResult {
 
   std::vector<SoakHistogram> histograms;
   std::vector<ResourceSlope> slopes;
-  std::uint64_t lives_too_short = 0;    // for a slope
-  std::uint64_t observers_renewed = 0;  // participants of the soak that had become deaf
+  std::uint64_t lives_too_short = 0;  // for a slope
   std::vector<AccountingRow> accounting;
   MachinePauses pauses;
   std::optional<NarrowestMargin> narrowest_margin;

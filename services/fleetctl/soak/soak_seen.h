@@ -63,7 +63,6 @@ struct SoakSeen {
   std::uint64_t modes_counted = 0;
   std::vector<ResourceSlope> slopes;
   std::uint64_t lives_too_short = 0;
-  std::uint64_t observers_renewed = 0;  // participants of the soak that had become deaf
   FleetTiming timing{Nanoseconds{0}};
   FleetAccounting accounting;
   std::vector<KeptRings> kept_rings;

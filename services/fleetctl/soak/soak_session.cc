@@ -89,9 +89,7 @@ SoakSession::SoakSession(const FleetSpec& spec, const Scenario& scenario,
       fleet_(SoakFleet(scenario, NewcomerCount(spec.options, scenario))),
       watch_(fleet_, schedule),
       invariants_(scenario),
-      observer_options_(ObserverOf(spec, scenario)),
-      ranges_(RangesFor(spec)),
-      observer_(std::in_place, observer_options_, ranges_),
+      observer_(ObserverOf(spec, scenario), RangesFor(spec)),
       processes_(tools.commands),
       attackers_({tools.attacker, tools.domain, tools.interface}),
       faults_(std::move(tools), &processes_),
@@ -107,8 +105,8 @@ SoakSession::SoakSession(const FleetSpec& spec, const Scenario& scenario,
   const std::string& ring_s = spec.options.record_ring;
   if (ring_s.empty()) return;
   const seconds ring(std::stoul(ring_s));
-  rings_.emplace(observer_options_, KeyToOrderWith(spec.options.admin_key, spec.domain), fleet_,
-                 spec.options.record_folder, ring);
+  rings_.emplace(ObserverOf(spec, scenario), KeyToOrderWith(spec.options.admin_key, spec.domain),
+                 fleet_, spec.options.record_folder, ring);
   black_box_.emplace(scenario, spec.options.record_folder, ring);
 }
 
@@ -154,7 +152,6 @@ void SoakSession::Gather(SoakSeen* seen) const {
     seen->step_p99_us[vehicle] = watch_.HighestStepP99_us(vehicle);
   }
   seen->lives_too_short = resources_.LivesTooShort();
-  seen->observers_renewed = observer_watch_.Count();
   seen->pauses = {pauses_.Count(), Seconds(pauses_.Paused()), Seconds(pauses_.Longest()),
                   pauses_.Share()};
 }
@@ -211,8 +208,7 @@ void SoakSession::Turn() {
 }
 
 void SoakSession::Drain() {
-  const link::Observed observed = observer_->Take();
-  RenewDeafObserver(observed);
+  const link::Observed observed = observer_.Take();
   watch_.Fold(observed, SteadyNow());
   invariants_.Fold(observed);
   near_.Fold(observed.truths);
@@ -225,18 +221,6 @@ void SoakSession::Drain() {
   if (watch_.HasStarted() && seen_.started_at == SteadyTime{0}) {
     seen_.started_at = SteadyNow() - FromSeconds(watch_.TimeSeconds(SteadyNow()));
   }
-}
-
-// The time it takes is the supervisor's own: no pause of the machine.
-void SoakSession::RenewDeafObserver(const link::Observed& observed) {
-  const bool heard = !observed.statuses.empty();
-  const bool expected = seen_.started && !stopping_ && watch_.Living() > 0;
-  if (!observer_watch_.Update(SteadyNow(), heard, expected)) return;
-  std::fprintf(stderr,
-               "%6.0f s  none of %u vehicles is received: the soak takes a new participant\n",
-               watch_.TimeSeconds(SteadyNow()), watch_.Living());
-  observer_.emplace(observer_options_, ranges_);
-  turned_ = SteadyNow();
 }
 
 // What is known to be broken during the run: invariants, decisions on stale beacons, processes that

@@ -21,7 +21,6 @@
 #include "services/fleetctl/soak/fleet_timing.h"
 #include "services/fleetctl/soak/host_faults/attackers.h"
 #include "services/fleetctl/soak/near_misses.h"
-#include "services/fleetctl/soak/observer_watch.h"
 #include "services/fleetctl/soak/pause_meter.h"
 #include "services/fleetctl/soak/process_faults.h"
 #include "services/fleetctl/soak/resource_series.h"
@@ -57,7 +56,6 @@ class SoakSession {
   bool WaitUntilAllDrive();
   void Turn();
   void Drain();
-  void RenewDeafObserver(const link::Observed& observed);
   std::uint64_t BrokenSoFar() const;
   void KeepRings(SteadyTime now);
   void CarryOut(std::span<const FaultEdge> edges);
@@ -75,10 +73,7 @@ class SoakSession {
   std::vector<VehicleId> fleet_;
   SoakWatch watch_;
   InvariantWatch invariants_;
-  link::LinkOptions observer_options_;
-  link::ObserverLink::Ranges ranges_;
-  std::optional<link::ObserverLink> observer_;  // always there
-  ObserverWatch observer_watch_;
+  link::ObserverLink observer_;
   FleetProcesses processes_;
   Attackers attackers_;
   ProcessFaults faults_;

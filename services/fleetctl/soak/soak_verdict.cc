@@ -241,7 +241,6 @@ class SoakEvaluation {
   void CheckSlopes() {
     result_.slopes = from_.seen.slopes;
     result_.lives_too_short = from_.seen.lives_too_short;
-    result_.observers_renewed = from_.seen.observers_renewed;
     for (const ResourceSlope& slope : result_.slopes) {
       if (!slope.leak) continue;
       AddViolation(

@@ -168,7 +168,6 @@ schema::SoakReport SchemaOf(const SoakResult& result) {
   WriteAll(result.histograms, [&message] { return message.add_histograms(); });
   WriteAll(result.slopes, [&message] { return message.add_slopes(); });
   message.set_lives_too_short(AsDouble(result.lives_too_short));
-  message.set_observers_renewed(AsDouble(result.observers_renewed));
   WriteAll(result.accounting, [&message] { return message.add_accounting(); });
   message.mutable_pauses()->set_count(AsDouble(result.pauses.count));
   message.mutable_pauses()->set_total_s(Printable(result.pauses.total_s));

@@ -57,7 +57,6 @@ void JoinCounts(const SoakResult& rest, double by_s, SoakResult* joined) {
   joined->near_misses_counted += rest.near_misses_counted;
   joined->modes_counted += rest.modes_counted;
   joined->lives_too_short += rest.lives_too_short;
-  joined->observers_renewed += rest.observers_renewed;
   joined->budget_spent += rest.budget_spent;
   joined->timing_values_lost += rest.timing_values_lost;
   joined->restarts_unplanned += rest.restarts_unplanned;

@@ -27,7 +27,6 @@ TEST(SoakReportJson, ComesBackAsItWas) {
   result.skipped_faults = {"clock_step: faketime is not installed"};
   result.violations = {{12.5, VehicleId{3}, VehicleId{4}, "contact", "touched", "stop#1"}};
   result.violations_counted = 7;
-  result.observers_renewed = 2;
   Random random(1);
   result.slopes.push_back(SampleSlope("leaking", &random, 3e3));
   MarkLeaks(&result.slopes, 0);
@@ -41,7 +40,6 @@ TEST(SoakReportJson, ComesBackAsItWas) {
   EXPECT_EQ(read.result.violations[0].vehicle, VehicleId{3});
   EXPECT_EQ(read.result.narrowest_margin->vehicle, VehicleId{3});
   EXPECT_EQ(read.result.accounting[0].Difference(), 0);
-  EXPECT_EQ(read.result.observers_renewed, 2U);
   EXPECT_TRUE(read.result.slopes.back().leak);
 }
 
