@@ -174,7 +174,7 @@ void CheckMemoryRoom(const HostFacts& host, qos::Findings* findings) {
         "The segment of one more participant does not fit: it dies of SIGBUS on its first write "
         "there.");
   } else {
-    // The vehicles need a world and an observer; a running fleet has them.
+    // The fleet also needs a world and an observer. Processes that run have their segments.
     const std::uint64_t all = host.vehicles + std::uint64_t{qos::kOtherParticipants};
     const std::uint64_t others = all - std::min<std::uint64_t>(all, host.processes.size());
     if (memory.free_bytes >= others * each) return;

@@ -23,7 +23,7 @@ enum class MemberKind : std::uint8_t { kWorld, kVehicle, kNewcomer, kDiscoverySe
 // One process of a fleet, through all of its restarts.
 struct MemberId {
   MemberKind kind = MemberKind::kWorld;
-  // A vehicle's id; of a newcomer, which has none yet, and of a discovery server from 1.
+  // A vehicle's id. Newcomers, which have no id yet, and discovery servers are numbered from 1.
   std::uint32_t number = 0;
 
   friend auto operator<=>(const MemberId&, const MemberId&) = default;

@@ -1,4 +1,4 @@
-// Runs a function in a forked copy of this process and returns its answer: for what a process can
+// Runs a function in a forked copy of this process and returns its result: for what a process can
 // do only once, or what may crash it. Call it while this process has no other threads.
 #pragma once
 

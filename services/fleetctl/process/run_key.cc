@@ -36,7 +36,7 @@ fs::path KeyFolder() {
   return KeyFolders().back();
 }
 
-// Accessible to this user alone; another user may have made a folder of this name.
+// Owned by this user and accessible to no other. Another may have made a folder of this name.
 bool IsPrivate(const fs::path& folder) {
   struct stat about {};
   return ::lstat(folder.c_str(), &about) == 0 && S_ISDIR(about.st_mode) &&

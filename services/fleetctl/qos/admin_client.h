@@ -51,7 +51,7 @@ int ReportNoAnswer(VehicleId vehicle);
 int ReportRefused(const AdminAnswer& answer);
 int ReportNoneReached(std::uint32_t domain);
 
-// An order that asks what the vehicle runs with.
+// The request of kind kReportQos: the answer has the profiles that the vehicle runs with.
 AdminRequest ReportQosRequest(VehicleId vehicle);
 AdminRequest ApplyRequest(VehicleId vehicle, const QosProfiles& profiles);
 

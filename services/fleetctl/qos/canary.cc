@@ -13,8 +13,8 @@ constexpr double kMatters = 0.2;  // of the rest's rate
 constexpr double kHour_s = 3600;
 
 // Whether a count over `a_size` is higher than one over `b_size` can explain. The variance of a
-// Poisson count is its mean, estimated from both together; one is added so that no events against
-// no events is not certain.
+// Poisson count is its mean, estimated from both together; one event is added, so that the estimate
+// is not 0 if there are none.
 bool IsMore(double a, double a_size, double b, double b_size) {
   if (a_size <= 0 || b_size <= 0) return false;
   const double rate = (a + b + 1) / (a_size + b_size);

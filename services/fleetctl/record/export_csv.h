@@ -11,7 +11,7 @@ namespace giveway::fleetctl {
 
 using FlatFields = std::vector<std::pair<std::string, std::string>>;  // name, value as text
 
-// What does not exist is left out, as JsonText leaves it out; arrays are as it writes them.
+// Null values are left out, as JsonText leaves them out; arrays are as it writes them.
 FlatFields Flattened(const Json& sample);
 
 // The columns of a table whose rows do not all have the same fields: all of them, in order of first

@@ -46,8 +46,9 @@ void Replayer::Begin(const RecordingFile& file, ReplayedFile* outcome) {
   next_ = *file.Continues();
 }
 
-// Restores the brain with which a part of a ring starts; or, if one was replayed up to there,
-// compares the two. Returns the mismatch; empty: none.
+// Restores the brain with which a part of a ring starts. Or, if one was replayed up to there,
+// compares the two: a mismatch is outcome->difference. Returns why the image cannot be used; empty:
+// it can.
 std::string Replayer::TakeImage(const RecordedImage& image, ReplayedFile* outcome) {
   if (brain_) {
     if (AreBytesOf(image.state, brain_->State())) return "";
@@ -113,7 +114,8 @@ void Replayer::Lead(RecordingFile* file, const ReplayWatcher& watch, ReplayedFil
   outcome->complete = end.has_value();
   outcome->lost = end ? end->lost : 0;
   outcome->failure = end ? Printable(end->failure) : "";
-  // A ring may have started a file just before it ended: then only the image was compared.
+  // A ring may have started a file just before it ended. Without steps, the comparison of its image
+  // with the brain that was replayed up to there is enough.
   if (outcome->steps == 0 && outcome->finding.empty() && !compared_image) {
     outcome->finding = "holds no step: nothing was compared";
     if (!outcome->failure.empty()) outcome->finding += "; " + outcome->failure;

@@ -7,9 +7,8 @@
 // Limits are wider than in a virtual run without loss, each for its own cause:
 //  - brains miss beacons and scans as they do with a lossy radio: LimitsFor;
 //  - an observation may be VehicleObservation::kHeldTicks old: a wait cycle or a halt of all
-//  vehicles may
-//    last that much longer, a priority key may be that much older, and braking may start that much
-//    later.
+//    vehicles may last that much longer, a priority key may be that much older, and braking may
+//    start that much later.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +30,7 @@ class InvariantWatch {
   explicit InvariantWatch(const Scenario& scenario);
 
   void Fold(const link::Observed& observed);
-  // Judges the ticks still held back, and which vehicles have not arrived if the run ended by
+  // Evaluates the ticks still held back, and which vehicles have not arrived if the run ended by
   // itself.
   void Finish(bool came_to_its_end);
 

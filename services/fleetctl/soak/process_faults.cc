@@ -23,7 +23,7 @@ constexpr Nanoseconds kChurnLife =
     milliseconds(1500);  // of each process that is started and killed
 constexpr std::uint32_t kFirstChurnId = 1'000'000;
 
-// A duplicate's output never overwrites the member's own.
+// Removes a flag and its value.
 void DropFlag(std::vector<std::string>* words, const std::string& flag) {
   const auto found = std::ranges::find(*words, flag);
   if (found != words->end()) words->erase(found, std::next(found, 2));
@@ -385,6 +385,7 @@ std::unique_ptr<ChildProcess> ProcessFaults::StartBeside(MemberId member, std::u
   child.environment.clear();  // its clock is not the member's, and what it reads is not counted
   if (!child.log_file.empty()) child.log_file += fmt::format(".duplicate-{}", id);
   SetFlag(&child.words, "--id", std::to_string(id));
+  // It must not overwrite the member's own recording.
   DropFlag(&child.words, "--record");
   DropFlag(&child.words, "--record-split");
   DropFlag(&child.words, "--record-ring");
@@ -437,7 +438,7 @@ void ProcessFaults::TurnChurn(SteadyTime now, Churn* churn) {
   --churn->left;
 }
 
-// Restores the soft limit: the hard limit was never changed.
+// Sets the soft limit; without `most`, restores it to the hard limit, which is never changed.
 void ProcessFaults::Limit(MemberId member, int resource, std::optional<std::uint64_t> most) {
   const auto pid = processes_->PidOf(member);
   if (!pid) return;

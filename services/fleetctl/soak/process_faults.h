@@ -114,7 +114,7 @@ class ProcessFaults {
   std::set<MemberId> returning_;  // killed, to be restarted when the fault is over
   std::map<const faults::Fault*, std::string> shm_effects_;
   std::map<MemberId, Slow> slow_;
-  std::map<MemberId, std::uint64_t> moved_before_;  // readings, at the last step of the clock
+  std::map<MemberId, std::uint64_t> moved_before_;  // readings, before the clock's last step
   std::map<const faults::Fault*, Churn> churns_;
   std::map<const faults::Fault*, std::unique_ptr<ChildProcess>> orders_;
   std::map<const faults::Fault*, std::vector<std::unique_ptr<ChildProcess>>> doubles_;

@@ -162,7 +162,7 @@ void SoakSession::SaveIfDue(SteadyTime now) {
   SoakSeen so_far = seen_;
   so_far.lasted_s = watch_.TimeSeconds(now);
   Gather(&so_far);
-  // What an active fault broke is not known yet.
+  // What a fault broke is not known while it is open: active, or its effects not yet settled.
   for (const std::size_t i : watch_.Open()) {
     so_far.courses[i] = {.effect = watch_.Courses()[i].effect};
   }

@@ -252,7 +252,7 @@ void SoakWatch::CloseSettled(SteadyTime now) {
   });
 }
 
-// The vehicle that it affects; else all.
+// The vehicle that the fault affects must be well again; after a fault of no single vehicle, all.
 void SoakWatch::SeekRecovery(SteadyTime now) {
   for (const std::size_t i : open_) {
     FaultCourse& course = courses_[i];

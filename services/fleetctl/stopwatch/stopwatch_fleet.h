@@ -33,7 +33,7 @@ class StopwatchFleet {
   // Sleeps for a moment and takes the reports.
   void Turn();
   const PeersHeard& WhoHears() const { return hearing_; }
-  // Since the last ForgetEvents, vehicle by vehicle, each in order.
+  // Logged since the last ForgetEvents, vehicle by vehicle, each in order.
   const std::vector<VehicleLogEvent>& Heard() const { return events_; }
   void ForgetEvents() { events_.clear(); }
   // When a vehicle started to count its blackouts.

@@ -160,7 +160,7 @@ class Conductor {
   }
 
   // The time before the signal is sent: the time of the system call counts as detection. A loop
-  // that is to hang reports this itself.
+  // that is to hang reports the time itself.
   SteadyTime InjectNow(VehicleId target) {
     const std::map<Fault, int> signals = {{Fault::kKill, SIGKILL},
                                           {Fault::kPause, SIGSTOP},

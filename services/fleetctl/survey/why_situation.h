@@ -29,7 +29,7 @@ struct FileIdentity {
   friend bool operator==(const FileIdentity&, const FileIdentity&) = default;
 };
 
-// Its command line, its environment and the scenario they name.
+// Of a service: from its command line, its environment and the scenario they name.
 struct LaunchOptions {
   bool is_world = false;
   VehicleId id = kNoVehicle;  // of a vehicle that requested one

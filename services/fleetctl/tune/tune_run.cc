@@ -172,7 +172,7 @@ std::size_t Tuning::PlannedTrials(const std::vector<Rung>& rungs) const {
   return trials;
 }
 
-// Of the first trials only: a resumed search sees what it saw before it was interrupted.
+// Of the first `most` trials: a resumed search sees what it saw before it was interrupted.
 void Tuning::TakeFigures(const TuneSearch& search, std::uint32_t most) {
   std::vector<std::vector<TrialEvidence>> taken;
   for (const TunedCandidate& tuned : result_.candidates) {

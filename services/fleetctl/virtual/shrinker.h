@@ -17,7 +17,7 @@ struct Shrunk {
   std::uint32_t attempts = 0;
 };
 
-// Called before every try. False: stop, and take the result so far.
+// Called before every attempt. False: stop, and take the result so far.
 using ShrinkProgress = std::function<bool(const VirtualCase& smallest, std::uint32_t attempts)>;
 
 // nullopt if no invariant breaks in the run.

@@ -112,7 +112,7 @@ void AddCountFlag(CLI::App* verb, const std::string& flag, WholeRange* counts,
       description + ", or LO..HI");
 }
 
-// The first group of flags.
+// To be added before the other flags, which override what it sets.
 void AddFleetFlag(CLI::App* verb, CaseOptions* made_by) {
   verb->add_option_function<std::string>(
           "--fleet",

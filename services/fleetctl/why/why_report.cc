@@ -223,7 +223,7 @@ TopicVerdict VerdictOf(const WhyReport& report, const TopicOutlook& topic) {
     }
     verdict.disagree = report.predicted && topic.in_place != Outlook::kNotKnown &&
                        heard != (topic.in_place == Outlook::kHears);
-    // It could not be predicted.
+    // The prediction does not know that the speaker has no place: that is no disagreement.
     if (!heard && report.speaker_without_place && NeedsPlace(topic)) verdict.disagree = false;
   } else if (topic.outlook != Outlook::kNotKnown && report.predicted) {
     verdict.verdict = topic.outlook == Outlook::kHears ? Verdict::kHears : Verdict::kDoesNot;

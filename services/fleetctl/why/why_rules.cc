@@ -25,7 +25,7 @@ Outlook OutlookOf(const Causes& causes, bool facts_known, bool in_place) {
   return any(Weight::kMayPrevent) || !facts_known ? Outlook::kNotKnown : Outlook::kHears;
 }
 
-// What the outlook assumes if there is no cause against it.
+// Whether the facts are known on which the outlook rests if no cause speaks against it.
 bool FactsKnown(const ProcessSituation& process) {
   return process.launch.domain != 0 && process.network_namespace && process.addresses &&
          process.profiles && process.state;

@@ -62,7 +62,7 @@ struct Prepared {
   std::uint32_t newcomers = 0;
 };
 
-// The world's faults need a world that injects them, the receivers' an impairment: always
+// The world injects its own faults, and the receivers' faults are impairments: both are always
 // available.
 std::string WhyNot(const faults::Fault& fault, const std::string& why_no_attacker,
                    bool has_discovery_servers) {
@@ -94,7 +94,7 @@ std::string WhyNot(const SoakOptions& options, const Scenario& scenario,
                                  : WhyNot(fault, why_no_attacker, options.discovery_servers > 0);
 }
 
-// Refuses everything that cannot be injected here at once; or leaves it out and reports it.
+// Refuses all faults that cannot be injected here, in one error; or leaves them out and reports it.
 void Sift(const SoakOptions& options, const Scenario& scenario, Prepared* prepared) {
   std::vector<Problem> problems;
   const std::string why_no_attacker = WhyNoAttacker(options.attacker, MayOpenPacketSocket());

@@ -72,7 +72,7 @@ void JoinCounts(const SoakResult& rest, double by_s, SoakResult* joined) {
   if (narrower) joined->narrowest_margin = margin;
 }
 
-// The rest has its own verdict; a promise that was broken before stays broken.
+// The verdict of the rest, except that a promise that was broken before stays broken.
 void JoinVerdicts(const SoakResult& rest, SoakResult* joined) {
   joined->verdict = rest.verdict;
   std::map<std::string, std::uint64_t> by_kind;
