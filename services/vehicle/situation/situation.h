@@ -52,7 +52,7 @@ struct CarriedPeer : HeardPeer {
 // RelatePeers.
 struct RelatedPeer : CarriedPeer {
   bool lost;
-  bool standing;      // below kStandingSpeed
+  bool standing;      // below kStandingSpeed_m_s
   bool has_priority;  // before this vehicle, by both keys as published
   bool believed;      // fresh and not doubted
   bool grants;        // believed, and says that it gives way to this vehicle or stays where it is
