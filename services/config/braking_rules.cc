@@ -10,7 +10,7 @@
 namespace giveway {
 namespace {
 
-// A seed makes a vehicle faster by up to so much (perturb.cc).
+// A seed makes a vehicle faster by up to so much (PerturbBySeed, scenario_overrides.h).
 constexpr double kSeedSpread = 1.02;
 
 double Fastest(const VehicleOptions& vehicle) {

@@ -29,9 +29,9 @@ class HealthService {
                                 .metrics = [this] { return Metrics(); }});
   }
 
-  // The loop's own; not visible to others before Tell.
+  // The loop's own; not visible to others before Publish.
   Health& Now() { return now_; }
-  // Puts it up, as of a loop that turns. Never waits.
+  // Publishes it, as of a loop that turns. Never waits.
   void Publish() {
     now_.loop.turned = SteadyNow();
     ++now_.loop.turns;

@@ -85,8 +85,8 @@ class DriveLink {
   // moment after this call.
   virtual void SendLeave(const SessionId& session) = 0;
 
-  // What changed of the network interfaces since this link was made, where that leaves it deaf;
-  // else empty. Throws LinkError.
+  // What changed of the network interfaces since this link was made, if it can no longer receive
+  // for that reason; else empty. Throws LinkError.
   virtual std::string InterfaceChange() const = 0;
   // Whether the writer of this vehicle's ranges is matched and alive, whatever comes of its
   // samples.

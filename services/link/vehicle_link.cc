@@ -32,7 +32,7 @@ constexpr Nanoseconds kLeaveTimeout = std::chrono::milliseconds(300);
 template <typename Wire, typename Ours>
 using OptionalInbox = std::optional<ScanInbox<Wire, Ours>>;
 
-// What is heard of a world: whose word counts, and how fast its ticks can come.
+// What the readers of a world's topics need: which writers count, and how fast ticks can come.
 struct WorldReaders {
   WorldBinding& binding;
   Nanoseconds tick_period;

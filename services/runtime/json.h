@@ -1,6 +1,6 @@
 // JSON as this project writes and reads it, on nlohmann-json: keys in the order in which they were
 // added, one line. The values are the library's own; a file that makes or reads one includes
-// <nlohmann/json.hpp>, which takes a compiler a second, and a header this.
+// <nlohmann/json.hpp>, which costs a second of compile time, and a header includes this one.
 #pragma once
 
 #include <cstdint>

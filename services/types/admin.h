@@ -11,7 +11,7 @@
 namespace giveway {
 
 enum class AdminRequestKind : std::uint8_t {
-  kReportQos,  // say what you run with
+  kReportQos,  // report the QoS profiles in use
   kApply,      // run with these profiles: at once where that is enough, else after a restart
   kKeepRing,   // keep permanently what the recording's ring holds now: recorder.h
 };

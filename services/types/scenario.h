@@ -95,8 +95,8 @@ struct Expectation {
   std::vector<VehicleId> halted;
   std::vector<VehicleId> arrived;
   std::optional<Rule> halted_for;  // this rule started at least one halt
-  bool any_halted = false;         // which halt is not judged
-  bool any_arrived = false;        // which arrive is not judged
+  bool any_halted = false;         // which vehicles halt is not judged
+  bool any_arrived = false;        // which vehicles arrive is not judged
   bool parted = false;             // at the end every pair is further apart than at its closest
   std::optional<double> min_separation_m;  // at least this, shell to shell
   std::optional<double> time_to_clear_s;   // at most this

@@ -8,8 +8,8 @@ namespace {
 // Turning faster than this, and for so many ticks after it, echoes do not show which of both moves.
 constexpr double kSharpTurn_rad_s = 0.25;
 constexpr std::uint32_t kTurnEchoTicks = 6;
-// How long after the last unexplained motion a deaf vehicle stands; by id, so that two of them do
-// not start as one.
+// How long a vehicle stands after the last unidentified motion; by id, so that two of them do not
+// start at the same time.
 constexpr double kUnidentifiedHold_s = 1.0;
 constexpr double kDeafStagger_s = 0.5;
 constexpr std::uint32_t kDeafStaggerSteps = 8;

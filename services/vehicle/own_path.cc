@@ -11,7 +11,8 @@
 namespace giveway {
 namespace {
 
-// After driving for so long without progress, a vehicle plans a detour.
+// After kNoProgress_s of driving without progress, a vehicle plans a detour; after
+// kProgressTimeout_s it does not stay in line any more.
 constexpr double kPassedAtDistance_m = 1.2;
 constexpr double kNoProgress_s = 6;
 constexpr double kProgressTimeout_s = 15;

@@ -1,4 +1,4 @@
-// What a vehicle's loop says of its health, and when.
+// What a vehicle's loop reports of its health, and when.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ class VehicleHealthReporter {
   // The loop has taken what came, at `woke`.
   void OnTick(const link::Taken& taken, const link::VehicleLinkCounters& counters,
               const RosterEntry& place, SteadyTime woke);
-  // The same status went to the fleet, of a brain that has come to this.
+  // This status was published to the fleet; `brain` is the state it was made from.
   void OnStatus(const VehicleStatus& status, const VehicleState& brain);
   void OnLeaving();
 

@@ -187,7 +187,7 @@ bool WorldLoop::MayCommand(const MotorCommand& command) {
   return false;
 }
 
-// The log says why, if it continues.
+// The log says why, if the refusals continue.
 void WorldLoop::LogRefused(const MotorCommand& command, const FieldFault& fault, bool passing) {
   const Refusal refusal{.sample = "motor command",
                         .vehicle = command.vehicle,

@@ -22,13 +22,13 @@ class UnfitEndpoints {
  public:
   void Add(FoundEndpoint found, SteadyTime now);
   bool IsDue(SteadyTime now) const;
-  // Lines for the log, one an endpoint; each endpoint is judged once.
+  // Lines for the log, one an endpoint; each endpoint is checked once.
   std::vector<std::string> Check(const std::vector<FoundEndpoint>& own, SteadyTime now);
-  // Endpoints that are kept, judged or not.
+  // Endpoints that are kept, checked or not.
   std::size_t Known() const { return found_.size(); }
 
  private:
-  std::deque<FoundEndpoint> found_;  // those due first; then some that were judged
+  std::deque<FoundEndpoint> found_;  // those due first; then some that were checked
   std::deque<SteadyTime> due_;       // of found_, from judged_ on
   std::size_t judged_ = 0;
 };

@@ -80,7 +80,7 @@ constexpr PoseCovariance operator+(const PoseCovariance& a, const PoseCovariance
 }
 
 // Of a pose that has since been carried on by a displacement, along a heading as uncertain as it
-// says. F C F' with F = [1 0 -way.y; 0 1 way.x; 0 0 1].
+// says. F C F' with F = [1 0 -d.y; 0 1 d.x; 0 0 1] and d the displacement.
 constexpr PoseCovariance Carried(const PoseCovariance& c, Vec2 displacement) {
   const double xh = c.xh_m_rad - displacement.y * c.hh_rad2;
   const double yh = c.yh_m_rad + displacement.x * c.hh_rad2;

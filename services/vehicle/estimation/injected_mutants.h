@@ -1,6 +1,6 @@
 // Defects of the rules that tests inject to check that each is detected (tests/virtual/defects.sh).
-// A vehicle is compiled without them: there Has() is constantly false, and the compiler removes
-// every check.
+// A vehicle is compiled without them: there MutantActive() is constantly false, and the
+// compiler removes every check.
 #pragma once
 
 #include <cstdint>
@@ -46,7 +46,7 @@ enum class Mutant : std::uint8_t {
 
 #ifdef GIVEWAY_INJECTED_MUTANTS
 namespace internal {
-inline std::uint64_t active_mutants = 0;  // a bit a defect
+inline std::uint64_t active_mutants = 0;  // one bit per mutant
 }
 // Before the first vehicle is made.
 inline void ActivateMutant(Mutant mutant) {

@@ -27,7 +27,7 @@ PoseCovariance Odometry::Roll(const DriveGeometry& drive, WheelSpeeds wheels, do
   heading_.Follow(pose_);
   const Vec2 displacement = pose_.position_world - before;
 
-  // How the end pose depends on the start pose: F C F' with F = [1 0 -way.y; 0 1 way.x; 0 0 1].
+  // How the end pose depends on the start pose: F C F' with F = [1 0 -d.y; 0 1 d.x; 0 0 1].
   MapOf3 covariance(covariance_.data());
   covariance.row(0) += -displacement.y * covariance.row(2);
   covariance.row(1) += displacement.x * covariance.row(2);

@@ -72,7 +72,7 @@ double QueueLength(double along_m, std::span<const PeerView> views, const OwnVie
   return length_m;
 }
 
-// Where a leader that will resume may nevertheless stop: before the next crossing.
+// Where a leader that intends to drive on may nevertheless stop: before the next crossing.
 double NextStop(double from_m, const Crossings& crossings) {
   double next_m = kNever_m;
   for (const PeerView* view : crossings.All()) {
@@ -83,7 +83,7 @@ double NextStop(double from_m, const Crossings& crossings) {
   return next_m;
 }
 
-// How far along the own path the leader gets before it stops.
+// How far along the own path the leader gets if it has to stop.
 double LeaderStops(const RelatedPeer& leader, const Crossings& crossings, const OwnView& s) {
   const double along_m = AlongOwnPath(leader, s);
   if (leader.standing) return along_m;

@@ -71,8 +71,8 @@ std::optional<double> FreeBefore(Vec2 point_body, double body_radius_m) {
   return free_m;
 }
 
-// Carries the object at `seen_world` on by `moved_m` towards where the sensor was, and keeps it if
-// it is in the corridor then.
+// Carries the object seen at `range_m` and `bearing_rad` on by `moved_m` towards where the sensor
+// was, and keeps it if it is in the corridor then.
 template <typename Scan>
 void Consider(const SeenObjects& seen, const HeldScan<Scan>& held, double range_m,
               double bearing_rad, double moved_m, const Situation& s,

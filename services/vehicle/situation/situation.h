@@ -1,11 +1,11 @@
 // One tick as the rules see it, in stages. Each is completed by one function from those before it,
 // and only read from then on: what is not known yet cannot be asked for.
 //
-//   OwnView     Vehicle::AssessSelf    this vehicle: pose, motion, course, sensors, lights
-//   PeersNow    Vehicle::AssessSurroundings    the relevant peers, related to it
-//   Movers      DetectMovers        what moves near and is none of them
-//   Escape      Detour                 what to try when it makes no progress
-//   Situation   BuildSituation         all of these: what the rules read
+//   OwnView     Vehicle::AssessSelf          this vehicle: pose, motion, course, sensors, lights
+//   PeersNow    Vehicle::AssessSurroundings  the relevant peers, related to it
+//   Movers      DetectMovers                 what moves near and is none of them
+//   Escape      Detour                       what to try when it makes no progress
+//   Situation   BuildSituation               all of these: what the rules read
 #pragma once
 
 #include <array>
@@ -40,7 +40,7 @@ struct CarriedPeer : HeardPeer {
   double distance_m;     // the same
   PoseCovariance apart;  // of where the peer is to this vehicle
   double sigma_m;        // the same along its worst axis
-  Vec2 path_world;       // from where it is to its next target
+  Vec2 path_world;       // vector from where it is to its next target
   bool path_is_near;     // that path comes within reach of the own path, or may
   // Only if that path is near: its length and its unit vector, or that of the heading where the
   // peer is there already.
@@ -52,7 +52,7 @@ struct CarriedPeer : HeardPeer {
 // RelatePeers.
 struct RelatedPeer : CarriedPeer {
   bool lost;
-  bool standing;      // below kStandingSpeed
+  bool standing;      // below kStandingSpeed_m_s
   bool has_priority;  // before this vehicle, by both keys as published
   bool believed;      // fresh and not doubted
   bool grants;        // believed, and says that it gives way to this vehicle or stays where it is
@@ -202,10 +202,9 @@ struct Escape {
   bool long_no_progress = false;     // for so long that it does not stay in line any more
   std::optional<Vec2> detour_world;  // where to go first, instead of straight to the goal
   // World frame: chosen recently, to get past echoes or out of where it is stuck. Echoes turn with
-  // the vehicle: choosing again each tick it would turn to and fro for ever.
+  // the vehicle: a new choice each tick would make it oscillate.
   std::optional<double> away_rad;
-  int escape_attempts =
-      -1;  // headings tried since it is stuck at this place; negative if it is not
+  int escape_attempts = -1;  // headings tried since it got stuck at this place; -1: not stuck
 };
 
 // The last stage, what the rules read: both before, and what follows from both.
