@@ -299,7 +299,10 @@ std::string MetricsText(const WorldHealth& world, const ProcessFigures& process,
   metrics.Summary("command_latency_seconds",
                   "From publishing a motor command to the tick that applies it, by wall clocks.",
                   world.command_latency);
-  metrics.Counter("joins_rejected", "Join requests refused.", world.joins_refused);
+  metrics.Counter(
+      "joins_rejected",
+      "Join requests dropped unexamined: without a session, of another's session, or too many.",
+      world.joins_refused);
   metrics.Counter("orders_rejected", "Orders of a writer that names too many vehicles.",
                   world.orders_refused);
   metrics.Counter("write_failures", "Writes that the middleware refused.", world.write_failures);

@@ -11,8 +11,8 @@ constexpr std::uint32_t kTurnEchoTicks = 6;
 // How long a vehicle stands after the last unidentified motion; by id, so that two of them do not
 // start at the same time.
 constexpr double kUnidentifiedHold_s = 1.0;
-constexpr double kDeafStagger_s = 0.5;
-constexpr std::uint32_t kDeafStaggerSteps = 8;
+constexpr double kUnidentifiedStagger_s = 0.5;
+constexpr std::uint32_t kUnidentifiedStaggerSteps = 8;
 
 }  // namespace
 
@@ -35,8 +35,8 @@ Movers DetectMovers(const OwnView& s, const PeersNow& near, MoverWatch* watch,
     watch->unidentified = true;
     watch->unidentified_since = s.now;
   }
-  const double hold_s =
-      kUnidentifiedHold_s + kDeafStagger_s * (Number(s.options.id) % kDeafStaggerSteps);
+  const double hold_s = kUnidentifiedHold_s +
+                        kUnidentifiedStagger_s * (Number(s.options.id) % kUnidentifiedStaggerSteps);
   if (watch->unidentified && Seconds(s.now - watch->unidentified_since) > hold_s)
     watch->unidentified = false;
   return {.unidentified = watch->unidentified,

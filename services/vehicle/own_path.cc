@@ -23,7 +23,8 @@ constexpr double kQueued_m = 1;
 constexpr std::uint32_t kQueuePatience = 8;
 constexpr std::uint32_t kDetourTicks = 10;  // a detour is planned again after so many
 constexpr std::uint32_t kAwayTicks = 60;    // it drives away from what stopped it for so many
-constexpr std::uint32_t kStuckTicks = 200;  // and may be stopped again, along a wall, for so many
+constexpr std::uint32_t kStuckAgainTicks =
+    200;  // and may be stopped again, along a wall, for so many
 // Moved no further than this, for so many ticks, it is stuck.
 constexpr double kStuckWithin_m = 0.1;
 constexpr std::uint32_t kStuckAfterTicks = 200;
@@ -144,10 +145,11 @@ Escape Detour(const OwnView& s, const PeersNow& near, const LastStep& last, Goal
   progress.no_progress_ticks += s.new_tick ? 1 : 0;
   if (s.distance_to_goal_m >= kNoGoal_m || s.arrived) return escape;
   if (MutantActive(Mutant::kPatienceDropped)) progress.no_progress_ticks += 1000;
-  const std::uint32_t away_ticks =
-      progress.away_tick == kNoTick ? kStuckTicks + 1 : TicksBetween(progress.away_tick, s.tick);
+  const std::uint32_t away_ticks = progress.away_tick == kNoTick
+                                       ? kStuckAgainTicks + 1
+                                       : TicksBetween(progress.away_tick, s.tick);
   const double no_progress_s = Seconds(progress.no_progress_ticks * s.options.tick_period);
-  const bool no_progress = no_progress_s >= kNoProgress_s || away_ticks <= kStuckTicks;
+  const bool no_progress = no_progress_s >= kNoProgress_s || away_ticks <= kStuckAgainTicks;
   escape.no_progress = no_progress;
   escape.long_no_progress = no_progress_s >= kProgressTimeout_s;
   const bool in_ring = queues && no_progress && IsBehind(last.blocked_by, s.options.id, near.peers);

@@ -181,7 +181,7 @@ void CheckMemoryRoom(const HostFacts& host, qos::Findings* findings) {
     add(Severity::kError, "memory_small", others * each,
         fmt::format(
             "There is space for {} of {} more participants; the next dies of SIGBUS on its first "
-            "write beyond it, and so may any other.",
+            "write beyond the free space, and so may any other.",
             memory.free_bytes / each, others));
   }
 }

@@ -74,8 +74,8 @@ RunKey::RunKey(const std::string& given, std::uint32_t domain) : file_(given) {
   ::mkdir(folder.c_str(), 0700);
   if (!IsPrivate(folder)) {
     throw auth::KeyError(folder.string() +
-                         ": must be a folder that only this user may enter, because it holds the "
-                         "fleet's key; remove it, or give --admin-key");
+                         ": must be a folder of this user that no other user may enter, because it "
+                         "holds the fleet's key; remove it, or give --admin-key");
   }
   file_ = KeyFileOf(folder, domain);
   auth::MakeAdminKey(file_);

@@ -100,7 +100,7 @@ int ReportNoneReached(std::uint32_t domain) {
   return interrupted ? 1 : kCouldNotRun;
 }
 
-AdminRequest ReportQosRequest(VehicleId vehicle) { return {.vehicle = vehicle, .profiles = {}}; }
+AdminRequest QosReportRequest(VehicleId vehicle) { return {.vehicle = vehicle, .profiles = {}}; }
 
 AdminRequest ApplyRequest(VehicleId vehicle, const QosProfiles& profiles) {
   return {.vehicle = vehicle, .kind = AdminRequestKind::kApply, .profiles = profiles};

@@ -52,7 +52,7 @@ int ReportRefused(const AdminAnswer& answer);
 int ReportNoneReached(std::uint32_t domain);
 
 // The request of kind kReportQos: the answer has the profiles that the vehicle runs with.
-AdminRequest ReportQosRequest(VehicleId vehicle);
+AdminRequest QosReportRequest(VehicleId vehicle);
 AdminRequest ApplyRequest(VehicleId vehicle, const QosProfiles& profiles);
 
 }  // namespace giveway::fleetctl

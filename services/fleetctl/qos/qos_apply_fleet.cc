@@ -65,7 +65,7 @@ int FindTargets(const QosApplyOptions& options, AdminClient* client, FleetAnswer
 int AskFleet(const QosApplyOptions& options, AdminClient* client, FleetAnswers* fleet) {
   if (const int code = FindTargets(options, client, fleet); code != 0) return code;
   for (const VehicleId process : fleet->targets) {
-    auto answer = client->Send(ReportQosRequest(process), kReportPatience);
+    auto answer = client->Send(QosReportRequest(process), kReportPatience);
     if (!answer) return ReportNoAnswer(process);
     if (answer->state == AnswerState::kRefused) return ReportRefused(*answer);
     fleet->answers.emplace(process, std::move(*answer));
@@ -74,7 +74,7 @@ int AskFleet(const QosApplyOptions& options, AdminClient* client, FleetAnswers* 
   // out.
   for (const VehicleId process : Everyone(client, kQuietOfTheRest, false, fleet)) {
     if (fleet->answers.contains(process)) continue;
-    auto answer = client->Send(ReportQosRequest(process), kReportPatience);
+    auto answer = client->Send(QosReportRequest(process), kReportPatience);
     if (!answer) continue;
     if (answer->state == AnswerState::kRefused) {
       fleet->not_administrable.push_back(process);

@@ -88,7 +88,7 @@ std::optional<LiveQos> LiveQosOf(const QosLiveOptions& options, const std::strin
     *exit_code = ReportNotReached(vehicle, options.domain);
     return std::nullopt;
   }
-  const auto answer = client.Send(ReportQosRequest(vehicle), kAnswerPatience);
+  const auto answer = client.Send(QosReportRequest(vehicle), kAnswerPatience);
   if (!answer) {
     *exit_code = ReportNoAnswer(vehicle);
     return std::nullopt;

@@ -383,7 +383,7 @@ std::unique_ptr<ChildProcess> ProcessFaults::StartBeside(MemberId member, std::u
   child.name = name;
   child.hands_on_lines = false;
   child.environment.clear();  // its clock is not the member's, and what it reads is not counted
-  if (!child.log_file.empty()) child.log_file += fmt::format(".duplicate-{}", id);
+  if (!child.log_file.empty()) child.log_file += fmt::format(".extra-{}", id);
   SetFlag(&child.words, "--id", std::to_string(id));
   // It must not overwrite the member's own recording.
   DropFlag(&child.words, "--record");

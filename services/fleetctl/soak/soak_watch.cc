@@ -145,7 +145,7 @@ void SoakWatch::FoldEvent(const WorldEvent& event) {
       continue;
     const std::string name =
         fmt::format("{} {} of {}", faults::ToString(fault.kind), fault.nth, fault.rule);
-    if (event.text == name) courses_[i].effect = "the world reports that it started";
+    if (event.text == name) courses_[i].effect = "the world reports that the fault started";
   }
 }
 

@@ -9,9 +9,9 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr const char* kStopwatchFooter = R"(
-Starts fleets of real processes, injects faults into one vehicle at a time, and measures when each peer
-reports in its log that it noticed, by each mechanism: age of the newest beacon, DEADLINE, LIVELINESS,
-participant lease, leave notice. --table shows which must notice which fault, and within what time.
+Starts fleets of real processes, injects faults into vehicles one after another, and measures the time
+until each peer reports in its log that it noticed, by each mechanism: age of the newest beacon, DEADLINE,
+LIVELINESS, participant lease, leave notice (good_bye). --table shows which must notice which fault, and within what time.
 
 Faults
   kill     kill -9                      hung     the control loop stops, other threads run
@@ -28,7 +28,7 @@ Exit code: 0 every promise was kept; 1 one was broken, or it was interrupted; 2 
 )";
 
 // Above 32 vehicles the code sets another lease; one place stays free.
-constexpr std::uint32_t kMostVictims = 31;
+constexpr std::uint32_t kMostVehicles = 31;
 constexpr std::uint32_t kMostTrials = 100'000;
 constexpr std::uint32_t kMostFleets = 16;
 constexpr std::uint32_t kQuickTrials = 10;
@@ -61,7 +61,7 @@ struct Given {
 void AddFlags(CLI::App* verb, Given* given) {
   StopwatchOptions* const options = &given->options;
   verb->add_option("--vehicles", options->vehicles, "Of each fleet; half of them observe")
-      ->check(CLI::Range(2U, kMostVictims))
+      ->check(CLI::Range(2U, kMostVehicles))
       ->capture_default_str();
   CLI::Option* trials = verb->add_option("--trials", options->trials, "Of each fault")
                             ->check(CLI::Range(1U, kMostTrials))

@@ -32,10 +32,10 @@ class Reader {
 
  private:
   void NoteEvents(const QosCounters& qos) {
-    if (!any_events_) events_before_ = qos;
-    any_events_ = true;
-    reading_.reported_deadline = qos.deadline_missed - events_before_.deadline_missed;
-    reading_.reported_liveliness = qos.liveliness_lost - events_before_.liveliness_lost;
+    if (!has_baseline_) baseline_ = qos;
+    has_baseline_ = true;
+    reading_.reported_deadline = qos.deadline_missed - baseline_.deadline_missed;
+    reading_.reported_liveliness = qos.liveliness_lost - baseline_.liveliness_lost;
   }
 
   void SeePeer(const Peer& peer, SteadyTime now, Tick tick, bool counts) {
@@ -62,8 +62,8 @@ class Reader {
   const VehicleOptions& options_;
   const AliveWindow window_;
   VehicleReading& reading_;
-  bool any_events_ = false;
-  QosCounters events_before_;  // at the window's first step
+  bool has_baseline_ = false;
+  QosCounters baseline_;  // at the window's first step
 };
 
 void FoldAges(const std::vector<VehicleReading>& readings, Nanoseconds tick,

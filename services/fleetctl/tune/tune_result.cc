@@ -4,7 +4,7 @@
 
 namespace giveway::fleetctl {
 
-void SetVerdict(TuneResult* result) {
+void ChooseRecommended(TuneResult* result) {
   std::vector<TuneFigures> figures;
   std::vector<std::size_t> places;  // of `figures` among the candidates
   for (std::size_t i = 0; i < result->candidates.size(); ++i) {

@@ -45,6 +45,6 @@ struct TuneResult {
 };
 
 // Fills in front and recommended from the figures.
-void SetVerdict(TuneResult* result);
+void ChooseRecommended(TuneResult* result);
 
 }  // namespace giveway::fleetctl

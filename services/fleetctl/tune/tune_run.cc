@@ -239,7 +239,7 @@ TuneResult Tuning::Run() {
   const std::size_t before = search.All().size();
   if (before > 0) std::fprintf(stderr, "resuming: %zu trials are already done\n", before);
   Climb(rungs, &search);
-  SetVerdict(&result_);
+  ChooseRecommended(&result_);
   Verify(&search);
   result_.trials = search.All();
   std::error_code ignored;

@@ -67,7 +67,8 @@ void AddRadioFlags(CLI::App* verb, CaseOptions* made_by) {
   verb->add_flag("--burst", made_by->burst, "The loss comes in bursts of five beacons on average");
   verb->add_option("--delay", made_by->delay_ms, "Transit time of a beacon in milliseconds")
       ->check(Between(0, 1000));
-  verb->add_option("--jitter", made_by->jitter_ms, "Most random extra transit time in milliseconds")
+  verb->add_option("--jitter", made_by->jitter_ms,
+                   "Maximum random extra transit time in milliseconds")
       ->check(Between(0, 1000));
   verb->add_option("--reorder", made_by->reorder_percent, "Percent held back and overtaken")
       ->check(Between(0, 100));
@@ -180,8 +181,8 @@ void AddPoseFlags(CLI::App* verb, CaseOptions* made_by) {
         made_by->fleet.least_wheel_error = percent.low / 100;
         made_by->fleet.most_wheel_error = percent.high / 100;
       },
-      "Percent of error in wheel diameter and axle length, or LO..HI: each vehicle draws both, "
-      "and their signs");
+      "Percent by which the wheel diameters differ and the axle length is wrong, or LO..HI: each "
+      "vehicle draws both, and their signs");
   verb->add_option_function<std::string>(
       "--pose-limit",
       [made_by](const std::string& text) {

@@ -223,7 +223,8 @@ std::variant<ChosenPair, std::string> Choose(const std::vector<FleetMember>& mem
       if (a.domain == b.domain) together.push_back(pairs.back());
     }
   }
-  if (pairs.empty()) return "both names are of one process, and a process does not receive itself";
+  if (pairs.empty())
+    return "both names are of one process, and a process does not receive its own samples";
   if (pairs.size() == 1) return pairs.front();
   if (together.size() == 1) return together.front();
   std::vector<FleetMember> meant = hearers;

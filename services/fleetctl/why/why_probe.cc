@@ -97,7 +97,7 @@ class Probing {
     if (run_began_) probe_->StartImpairment(*run_began_);
   }
 
-  ProbeResult Poll() {
+  ProbeResult Run() {
     while (!IsOver()) {
       SleepUntil(SteadyNow() + kTurn);
       processes_ = probe_->Poll();
@@ -350,7 +350,7 @@ std::string InPlaceOf(const ProcessSituation& process, const std::function<std::
 
 ProbeResult Probe(const ProbeOrder& order) {
   const std::string text =
-      InPlaceOf(order.hearer, [&order] { return Written(Probing(order).Poll()); });
+      InPlaceOf(order.hearer, [&order] { return Written(Probing(order).Run()); });
   ProbeResult result = Understood(text);
   if (text.empty()) result.trouble = "the probing process ended without a word";
   return result;

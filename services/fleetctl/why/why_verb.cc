@@ -55,8 +55,8 @@ void AddWhyVerb(CLI::App* fleetctl, int* exit_code) {
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
   verb->callback([options, exit_code] {
     if (options->hearer == options->speaker) {
-      throw CLI::ValidationError("B",
-                                 "is A, and a process does not receive itself; name two processes");
+      throw CLI::ValidationError(
+          "B", "is A, and a process does not receive its own samples; name two processes");
     }
     *exit_code = RunWhy(*options);
   });

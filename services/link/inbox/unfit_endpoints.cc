@@ -10,7 +10,7 @@ namespace {
 constexpr Nanoseconds kSettles = std::chrono::seconds(1);
 // Checked endpoints that are remembered as other endpoints of their participant: those of a dozen
 // vehicles, for a participant's endpoints are discovered close together. Some 300 bytes each.
-constexpr std::size_t kMostJudged = 128;
+constexpr std::size_t kMostChecked = 128;
 
 // "a reader of fleet/beacon in v5 (Eclipse Cyclone DDS, participant 0110...)".
 std::string Describe(const FoundEndpoint& endpoint) {
@@ -58,12 +58,12 @@ bool UnfitEndpoints::IsDue(SteadyTime now) const { return !due_.empty() && due_.
 std::vector<std::string> UnfitEndpoints::Check(const std::vector<FoundEndpoint>& own,
                                                SteadyTime now) {
   std::vector<std::string> lines;
-  for (; IsDue(now); due_.pop_front(), ++judged_) {
-    const FoundEndpoint& other = found_[judged_];
+  for (; IsDue(now); due_.pop_front(), ++checked_) {
+    const FoundEndpoint& other = found_[checked_];
     std::string why = WhyUnfit(other, own, found_);
     if (!why.empty()) lines.push_back(std::move(why));
   }
-  for (; judged_ > kMostJudged; --judged_) found_.pop_front();
+  for (; checked_ > kMostChecked; --checked_) found_.pop_front();
   return lines;
 }
 

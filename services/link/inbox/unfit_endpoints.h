@@ -29,8 +29,8 @@ class UnfitEndpoints {
 
  private:
   std::deque<FoundEndpoint> found_;  // those due first; then some that were checked
-  std::deque<SteadyTime> due_;       // of found_, from judged_ on
-  std::size_t judged_ = 0;
+  std::deque<SteadyTime> due_;       // of found_, from checked_ on
+  std::size_t checked_ = 0;
 };
 
 }  // namespace giveway::link

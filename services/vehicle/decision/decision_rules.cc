@@ -111,7 +111,7 @@ std::optional<Proposal> Object(const Situation& s) {
       .max_speed_m_s = limit, .may_turn = true, .rule = Rule::kObject, .cause_tick = object->tick};
 }
 
-std::optional<Proposal> Deaf(const Situation& s) {
+std::optional<Proposal> UnidentifiedMotion(const Situation& s) {
   if (!s.movers.unidentified || MutantActive(Mutant::kMoverIgnored)) return std::nullopt;
   Proposal proposal = DeadStop(Rule::kUnidentifiedMotion);
   proposal.sensor = s.movers.unidentified_sensor;
@@ -174,13 +174,14 @@ std::optional<Proposal> MostRestrictive(const Situation& s) {
     case Behaviour::kLecturePrinted:
       return LowestOf<Leaving, NotRunning, RangesStale, Arrived, Lost>(s);
     case Behaviour::kLectureYield:
-      return LowestOf<Leaving, NotRunning, RangesStale, Arrived, Lost, GiveWay, PeerLost, Deaf,
-                      Obstacle>(s);
+      return LowestOf<Leaving, NotRunning, RangesStale, Arrived, Lost, GiveWay, PeerLost,
+                      UnidentifiedMotion, Obstacle>(s);
     case Behaviour::kCooperative:
       break;
   }
   return LowestOf<Leaving, NotRunning, RangesStale, Arrived, Lost, Unsure, Signal, GiveWay,
-                  NotGranted, PeerLost, Deaf, KeepClear, KeepBoxClear, Obstacle, Object>(s);
+                  NotGranted, PeerLost, UnidentifiedMotion, KeepClear, KeepBoxClear, Obstacle,
+                  Object>(s);
 }
 
 }  // namespace giveway

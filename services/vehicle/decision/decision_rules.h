@@ -47,7 +47,7 @@ std::optional<Proposal> Signal(const Situation& s);
 std::optional<Proposal> Object(const Situation& s);
 
 // What the own ultrasonics ask for by themselves.
-std::optional<Proposal> Deaf(const Situation& s);
+std::optional<Proposal> UnidentifiedMotion(const Situation& s);
 std::optional<Proposal> Obstacle(const Situation& s);
 
 // The lowest limit proposed by the rules of the vehicle's behaviour; of equal limits the more

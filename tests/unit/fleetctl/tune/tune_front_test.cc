@@ -100,7 +100,7 @@ TEST(TuneFront, AResultThatWasNotVerifiedSaysSo) {
   result.candidates = {{.candidate = {"base", {}}, .figures = Figures(100, 200)},
                        {.candidate = {"d190", {}}, .figures = Figures(20, 200)},
                        {.candidate = {"bad", {}}, .trouble = "refused"}};
-  SetVerdict(&result);
+  ChooseRecommended(&result);
   EXPECT_EQ(result.recommended, 1U);
   EXPECT_THAT(result.front, ElementsAre(1));
   EXPECT_FALSE(result.IsBetter());

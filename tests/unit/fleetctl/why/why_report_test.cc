@@ -192,7 +192,7 @@ TEST_F(WhyChoice, WhoIsNotHereIsNobodyAndTwoOfThemAreTooMany) {
 
 TEST_F(WhyChoice, NobodyHearsItself) {
   EXPECT_THAT(Complaint({kThree, Named{.pid = 23}, {}}),
-              HasSubstr("a process does not receive itself"));
+              HasSubstr("a process does not receive its own samples"));
 }
 
 // Regression: a foreign vehicle with 36 samples received was "no process of this machine", and the
