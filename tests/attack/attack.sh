@@ -125,8 +125,8 @@ report() {
   fi
 }
 
-# attacked NAME COMMAND...: the fleet while that runs, and after it. Who speaks as another with its next
-# numbers cannot be kept from blinding its readers for as long.
+# attacked NAME COMMAND...: the fleet while that runs, and after it. An intruder that sends as another's writer
+# with its next sequence numbers blinds that one's readers meanwhile; nothing can prevent it.
 attacked() {
   local name=$1 line before died touched faults='' sent share grown started_ns took blind
   shift

@@ -165,8 +165,8 @@ void Replay(const Target& target, UdpSender* sender) {
   }
 }
 
-// The beacons of another as the vehicle's: by its writer, under the number that comes next. To each
-// who hears it in turn.
+// Another vehicle's beacons as this one's: from its writer, under the next sequence number. To each
+// of its readers in turn.
 class Impostor {
  public:
   Impostor(std::uint32_t vehicle, const std::vector<Packet>& captured)

@@ -1,5 +1,5 @@
-// What is sent at a fleet: one function an attack. Each goes by what was captured of the fleet, as
-// an intruder would who needs no credentials.
+// What is sent at a fleet: one function an attack. Each uses what was captured of the fleet, as an
+// intruder without credentials would.
 #pragma once
 
 #include <chrono>

@@ -26,8 +26,8 @@ end_all() {
 }
 trap end_all EXIT
 
-# Places far from each other; at most 32, because above that a participant that died is spoken to for
-# twenty seconds instead of ten. Who died is taken away after a second, or comes back to where it
+# Places far from each other; at most 32, because above that samples are sent to a dead participant for
+# twenty seconds instead of ten. A dead vehicle is removed after a second, or comes back to where it
 # stands.
 case $what in returns) removal=30 columns="0" ;; *) removal=1 columns="0 12 24 36 48 60" ;; esac
 {
@@ -40,7 +40,7 @@ case $what in returns) removal=30 columns="0" ;; *) removal=1 columns="0 12 24 3
   done
 } >"$scratch/comings.textproto"
 
-start() { # NAME PROGRAM FLAG...: its id is in $pid; NAME_beside is in a separate fleet
+start() { # NAME PROGRAM FLAG...: its id is in $pid; NAME_beside is in a second, undisturbed fleet
   local there=$domain
   [[ $1 != *_beside ]] || there=$((domain + 1))
   "$bin/$2" --scenario "$scratch/comings.textproto" --domain "$there" "${@:3}" 2>"$scratch/$1.log" &

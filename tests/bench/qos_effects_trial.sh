@@ -8,7 +8,7 @@ bin=$here/../../build/release/bin
 set_file=$1 folder=$2
 shift 2
 declare -A asked=(
-  [vehicles]=8       # in lanes of their own, all in radio range, with every sensor, and two signals
+  [vehicles]=8       # in lanes of their own, all in radio range, with every sensor, and two traffic lights
   [impair]=none      # what every vehicle hears through
   [seconds]=4        # measured, once all are matched or the wait is over
   [wait]=15          # for the matches, seconds at most

@@ -131,7 +131,7 @@ if wanted peers; then
 fi
 
 # Mean delay beyond the time alone and arrivals a minute, of our vehicles, of a reservation scheme in
-# order of arrival and of reciprocal velocity obstacles; contacts, and who is missing at the end.
+# order of arrival and of reciprocal velocity obstacles; contacts, and how many are missing at the end.
 # Simulated time. GIVEWAY_CASES sets the seeds a size; with all 40 it takes minutes.
 if wanted right_of_way; then
   for place in crossing swarm; do

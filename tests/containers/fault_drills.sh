@@ -7,7 +7,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/../support/composed_fleet.sh"
 [[ ${1:-} == multicast || ${1:-} == servers ]] || die "say multicast or servers"
 LIMIT_S=5
-# Where servers were killed too, clients drop one that returned only after its lease of 2 s.
+# Where servers were killed too: a client drops the former server only after its lease of 2 s.
 SERVERS_LIMIT_S=8
 export GIVEWAY_SCENARIO=/drill/lanes.textproto
 engine_up
@@ -36,8 +36,8 @@ drill_world_crash() {
   await "world killed: all drive again" "$LIMIT_S" drive_again $((placed_before + VEHICLES))
 }
 
-# Vehicles that know each other continue without a server; new ones find them through the other one, and after
-# both were down through either that is back. The packaged server has no packet filter: a packet that ends it
+# Vehicles that know each other continue without a server; new ones find them through the other server, and
+# after both were down through whichever is back. The packaged server has no packet filter: a packet that ends it
 # costs a fleet three seconds at most.
 drill_servers_crash() {
   local service others container

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Eight containers cross under faults: kill -9 of a vehicle, a pause, a cut network, and kill -9 of the world.
-# Unlike in the lanes of the drills they block each other all the time. Which of them arrive is not checked;
-# that no two bodies touch is, by the world's verdict over the whole run. Nor is the time the engine takes:
-# the waits allow for a busy machine.
+# Unlike in the lanes of the drills they block each other all the time. Checked is that no two bodies touch, by
+# the world's verdict over the whole run; not which of them arrive, and not the time the engine takes: the
+# waits allow for a busy machine.
 #
 #   bash tests/containers/rough_crossing.sh multicast|servers
 source "$(dirname "${BASH_SOURCE[0]}")/../support/composed_fleet.sh"

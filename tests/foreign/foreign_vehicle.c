@@ -40,7 +40,7 @@ struct peer {
   uint32_t id;
   int64_t received_ns; /* by the own clock: nothing that is sent says how old it is */
   Beacon beacon;
-  bool stands_back; /* its way crosses the own one, and this vehicle holds before it */
+  bool stands_back; /* its path crosses the own one, and this vehicle holds before it */
 };
 
 static struct vehicle {
@@ -251,7 +251,7 @@ static double MayGo(struct peer* peer) {
     peer->stands_back = true;
     return crossing.begin_m;
   }
-  if (grants || !can_stop) return kFar_m; /* in the crossing, the way out is the way on */
+  if (grants || !can_stop) return kFar_m; /* in the crossing, driving on is how it gets out */
   me.rule = fresh ? giveway_wire_RULE_NOT_GRANTED : giveway_wire_RULE_PEER_LOST;
   return crossing.begin_m;
 }

@@ -1,7 +1,7 @@
 /* The points at which the model can be broken on purpose: as it should be, and each injected defect.
  * What SPIN must find stands in runs.txt. */
 
-/* The order, as it should be. */
+/* The priority by key, as it should be. */
 #define PrecedesByKey(waited_a, a_, waited_b, b_) \
   ((waited_a) > (waited_b) ||                  \
    ((waited_a) == (waited_b) && (fast[a_] > fast[b_] || (fast[a_] == fast[b_] && (a_) < (b_)))))

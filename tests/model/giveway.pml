@@ -1,5 +1,5 @@
 /* The right of way of 2 or 3 vehicles at one crossing, for SPIN: all sequences in which beacons are
- * lost, late, out of order or duplicated, and vehicles die and come back, at all times.
+ * lost, late, out of order or duplicated, and in which vehicles die and come back, at any tick.
  *
  * Correspondence with the code (services/vehicle, services/types):
  *
@@ -7,7 +7,7 @@
  *   Hear            PeerTable::Take, IsFresh, IsLost                            peer_table.cc
  *   PrecedesByKey   PrecedesByKey, HasPriority: by both keys as published       beacon.h
  *   Look            RelatePeers, CrossingWith: conflict, grants, has_priority   peer_relation.cc
- *   IsThroughFirst  IsThroughFirst                                              encounter.cc
+ *   IsThroughFirst  IsThroughFirst                                              timing.cc
  *   UpdateFresh     UpdateEncounters, Begins, IsOver, Holds, SecondMustStop     encounter.cc
  *   MayCross        MayCrossBefore                                              encounter.cc
  *   UpdateLost      UpdateLost, Holds of a lost peer                            encounter.cc
@@ -84,7 +84,7 @@
 typedef Beacon {
   byte place;
   byte gives_way_to;
-  byte waited; /* the part of the order key that changes */
+  byte waited; /* the part of the priority key that changes */
 };
 
 /* The world. */
@@ -107,7 +107,7 @@ bool holds[N * N];    /* Encounter::holds */
 bool released[N * N]; /* Encounter::released */
 bool stood[N * N];    /* last heard standing and second: no conflict */
 byte waited[N];       /* ticks */
-bool let_pass[N];     /* one that comes first has passed since it waits */
+bool let_pass[N];     /* a peer with priority has passed since it waits */
 byte order[N];        /* the waited part of the own key, as published */
 byte gives_way[N];    /* said at the end of this tick */
 bool under_way[N];    /* this tick: encounters are active, and were in the tick before */
@@ -121,8 +121,8 @@ bool clear, deaf, waits, met, meets_any, held;
 
 /* The safety properties. SPIN names the one that is broken. */
 bool two_in_zone;  /* exclusion: never two bodies in the zone, dead or alive */
-bool out_of_order; /* order: no vehicle enters before a near one that it hears and that has
-                    * priority, unless that one waits for a third */
+bool out_of_order; /* order: no vehicle enters before a near peer that it hears and that has
+                    * priority, unless that peer waits for a third */
 bool unfrozen;     /* frozen: during encounters the published priority changes only once its
                     * vehicle has let another pass, and stands before the zone */
 bool unlatched;    /* latch: a stop for a peer lasts until that has passed or given way */
@@ -217,7 +217,7 @@ inline Remember(i) {
   rests[i] = AGED_AT_MOST > 0 && ForgetsWaiting(!meets_any && !waits)
 }
 
-/* By the order as it should be, whatever defect is injected. */
+/* By PrecedesByKey, the correct priority, whatever defect is injected. */
 inline CheckOrder(i) {
   for (j : 0 .. N - 1) {
     if

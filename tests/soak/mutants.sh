@@ -71,7 +71,7 @@ for mutant in "${@:-${ORDER[@]}}"; do
   }
   folder=$(programs "$mutant")
   schedule >"$folder/faults.textproto"
-  # Its text says that it happens, but no vehicle loses anything.
+  # The fault is reported as injected, but no vehicle loses anything.
   [[ $mutant != fault_without_effect ]] ||
     sed -i 's/probability: 0.6/probability: 0/' "$folder/faults.textproto"
   code=0

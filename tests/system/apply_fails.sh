@@ -26,8 +26,8 @@ says() { jq -e "$2" out >/dev/null || fail "$1: not true of $(head -c 900 out): 
 fill_memory() { head -c 1G /dev/zero >/dev/shm/full 2>/dev/null || true; }
 free_memory() { rm -f /dev/shm/full; }
 
-# The process that tries a set for process $1, which stops it: what follows happens before the restart. Fails
-# once the process $2 that gave the order is gone.
+# Prints the child in which process $1 tries a set, and stops $1, so that what follows happens before its
+# restart. Fails once process $2, which gave the order, is gone.
 trial_of() {
   local children=
   while [[ -z $children ]]; do # they stand on a line without an end

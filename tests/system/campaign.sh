@@ -102,8 +102,8 @@ read -ra words <shown
 "$FLEETCTL" "${words[@]:1}" >/dev/null || code=$?
 [[ $code -eq 1 ]] || fail "the command does not fail again: exit code $code"
 
-# A scenario in place of generators: its runs are those of fleetctl virtual too. Cut short no vehicle arrives,
-# which its file expects.
+# A scenario in place of generators: its runs are those of fleetctl virtual too. Cut short, no
+# vehicle arrives, though its file expects it.
 printf 'name: "placed"\nscenario: "four_way"\nseeds: [1, 4]\n' >placed.textproto
 for index in 0 1 2; do campaign 0 "a scenario" shard placed.textproto --of 3 --index "$index" --out placed; done
 campaign 0 "merge of a scenario" merge placed/*.json --json

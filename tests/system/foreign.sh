@@ -100,8 +100,8 @@ for name in second first silent; do ends "foreign_$name" && ends "ours_$name"; d
 grep -q 'not_granted for 2' ours_silent.log || fail "it drove on without a grant: $(cat ours_silent.log)"
 no_contact
 
-# Regression: a speed bucket truncated instead of rounded made a vehicle reject all its beacons, and no log
-# said why.
+# Regression: a foreign vehicle truncated its speed bucket instead of rounding it; ours rejected all its
+# beacons, and no log said why.
 LANES=$HERE/crossing.textproto
 crossing cut 2 floors-bucket
 await "the field is named" 20 ours_cut 'beacon of vehicle 2: order_speed_bucket is 7, must be 8'

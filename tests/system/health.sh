@@ -157,7 +157,7 @@ kill -USR2 "${PID[b]}"
 await_health "b continues" 2 "$B" live 0 '^live$'
 await_health "b drives again" 5 "$B" ready 0 '^ready$'
 
-# A leave is not a loss. Half a request does not keep the vehicle from leaving.
+# --- A leave is not a loss. Half a request does not keep the vehicle from leaving.
 await "a hears b again" 5 a "beacon_heard: vehicle $id_b"
 sleep 0.5
 line=$(lines_of a)
@@ -175,7 +175,7 @@ if tail -n "+$((line + 1))" "$SCRATCH/a.log" | grep -E "(stale|lost|missed).*veh
 fi
 [[ $(metric "$A" giveway_vehicle_liveliness_lost_total) == "$lost" ]] || fail "a counted a loss"
 
-# --- b's disk was full: it reported that and drove on; so does its recording.
+# --- b's disk was full: it drove on, and both its log and its recording say so.
 grep -q 'error .*the recording ends here: .*b.tape: File too large' "$SCRATCH/b.log" ||
   fail "b did not say that its disk is full"
 "$FLEETCTL" replay "$SCRATCH/b.tape" | grep -q 'could not be written: File too large' ||

@@ -39,7 +39,7 @@ class Intruder {
   void LookRound();
   link::Participant& Participant() { return participant_; }
   const Orders& Asked() const { return orders_; }
-  // The target's, as the world published last.
+  // The target's truth, as the world published it last.
   const Truth& TargetNow();
   const RosterEntry& Entry() const { return entries_.at(orders_.target); }
   const std::map<VehicleId, RosterEntry>& Entries() const { return entries_; }

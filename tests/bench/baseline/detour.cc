@@ -27,7 +27,7 @@ struct Piece {
   double length_m = 0;
 };
 
-// ActiveContacts both: the centres' distance across the direction is the difference of the offsets.
+// Touches both: the centres' distance across the direction is the difference of the offsets.
 std::optional<Piece> Tangent(const Peg& a, const Peg& b) {
   const Vec2 apart = b.centre - a.centre;
   const double length = Norm(apart);

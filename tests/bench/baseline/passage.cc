@@ -67,7 +67,7 @@ class Reach {
     }
   }
 
-  // The farthest and fastest of those who are at the goal at last and can come to rest.
+  // The furthest and fastest of the states at the goal from which it can come to rest.
   std::optional<Passage> Arrive(std::uint32_t step) const {
     for (std::uint32_t unit = passing_.last_unit; unit >= passing_.arrive_unit; --unit) {
       for (std::uint32_t level = pace_.top + 1; level-- > 0;) {

@@ -22,7 +22,7 @@ const VehicleOptions& OptionsOf(const Scenario& scenario, VehicleId vehicle) {
   return *std::ranges::find(scenario.vehicles, vehicle, &VehicleOptions::id);
 }
 
-// Who has come to its goal, whether it stands there or passes: one rule for all who drive. A
+// Which vehicles reached their goal, standing there or passing it: one rule for all pilots. A
 // vehicle booked through tiles passes its goal at cruise speed, and the judge's word, "stands in
 // it", would count how it brakes.
 class Finish {

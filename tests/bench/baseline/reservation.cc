@@ -104,7 +104,7 @@ bool Reservation::MayAsk(const Member& member) const {
                              [&](std::size_t i) { return members_[i].passage.has_value(); });
 }
 
-// First come, first served; but in a lane who is ahead is served before who is behind.
+// First come, first served; but in a lane the vehicle ahead is served before those behind it.
 void Reservation::ServeEveryone() {
   std::vector<std::size_t> waiting(members_.size());
   std::iota(waiting.begin(), waiting.end(), std::size_t{0});

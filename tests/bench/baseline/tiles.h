@@ -37,8 +37,8 @@ class TileBook {
   // All of them, or none: false if one is taken.
   bool Book(std::span<const Tile> tiles, Step step);
 
-  // For someone who stands there from a step on, permanently. False, and none is, if one is taken
-  // then or later.
+  // For a vehicle that stands there from a step on, permanently. False, and books none, if one is
+  // taken then or later.
   bool BookFrom(std::span<const Tile> tiles, Step step);
   // The vehicle that stood there gets a plan, and is there no longer than that says.
   void GiveBack(std::span<const Tile> tiles);
