@@ -71,8 +71,8 @@ void TransportRules::CheckUse(const Participation& participation) {
     Add(Severity::kError, "not_one_udp_transport", profile.place, profile.name,
         std::to_string(participation.transports.size()) + " user transports, of them " +
             std::to_string(udp) + " UDPv4",
-        "The services do not start: one UDPv4 transport finds the others, and shared memory may be "
-        "the only other.",
+        "The services do not start: one UDPv4 transport finds the others, and besides it only "
+        "shared memory is allowed.",
         "name one transport of type UDPv4");
   }
 }
