@@ -12,7 +12,7 @@
  *   MayCross        MayCrossBefore                                              encounter.cc
  *   UpdateLost      UpdateLost, Holds of a lost peer                            encounter.cc
  *   Claimed         ClaimOf, FreeBefore, KeepClear                              claim.cc, decision_rules.cc
- *   Listen          DetectMovers, NearestEcho; the rule UnidentifiedMotion                    mover_watch.cc, decision_rules.cc
+ *   Listen          DetectMovers, NearestEcho; the rule UnidentifiedMotion       mover_watch.cc, decision_rules.cc
  *   Remember, Say   KeepOrder, Remember, GivesWayTo, CanGiveWay, MakeBeacon     waiting.cc, vehicle.cc, decide.cc
  *   Move            World::Step; of the dead: watchdog, removal of the body     sim_world
  *
