@@ -34,6 +34,14 @@ Examples
 Exit code: 0 all held, 1 something did not, 2 no result: a shard lacks, stands twice, or is another's.
 )";
 
+constexpr const char* kCampaignFooter = R"(
+Examples
+  fleetctl campaign shard nightly --of 200 --index 0 --out results
+  fleetctl campaign merge results/*.json
+
+More: fleetctl campaign shard --help
+)";
+
 void AddShard(CLI::App* group, int* exit_code) {
   const auto options = std::make_shared<CampaignShardOptions>();
   CLI::App* verb = group->add_subcommand("shard", "Run one part of a campaign");
@@ -65,6 +73,7 @@ void AddCampaignVerb(CLI::App* fleetctl, int* exit_code) {
   CLI::App* verb = fleetctl->add_subcommand(
       "campaign", "Many virtual runs cut into parts, which any number of machines run");
   verb->require_subcommand(1);
+  verb->footer(kCampaignFooter);
   AddShard(verb, exit_code);
   AddMerge(verb, exit_code);
 }

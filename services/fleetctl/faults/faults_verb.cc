@@ -37,6 +37,14 @@ Examples
 Exit code: 0 shown, 2 could not run.
 )";
 
+constexpr const char* kFaultsFooter = R"(
+Examples
+  fleetctl faults list
+  fleetctl faults expand everything --seed 1 --duration 30m --vehicles 20
+
+More: fleetctl faults expand --help
+)";
+
 void AddExpand(CLI::App* group, int* exit_code) {
   const auto options = std::make_shared<FaultsOptions>();
   CLI::App* verb = group->add_subcommand("expand", "The concrete faults that a fault file makes");
@@ -73,6 +81,7 @@ void AddFaultsVerb(CLI::App* fleetctl, int* exit_code) {
   CLI::App* verb =
       fleetctl->add_subcommand("faults", "What can go wrong, and what a file makes of it");
   verb->require_subcommand(1);
+  verb->footer(kFaultsFooter);
   AddExpand(verb, exit_code);
   AddList(verb, exit_code);
 }

@@ -46,6 +46,14 @@ Examples
 Exit code: 0 shown, or no difference; 1 the two differ; 2 could not run, or no answer.
 )";
 
+constexpr const char* kQosFooter = R"(
+Examples
+  fleetctl qos check mine.xml
+  fleetctl qos show fleet/beacon
+
+More: fleetctl qos check --help
+)";
+
 void AddCheck(CLI::App* qos, int* exit_code) {
   const auto options = std::make_shared<QosCheckOptions>();
   CLI::App* verb = qos->add_subcommand("check", "Find what is wrong with profile files, offline");
@@ -110,7 +118,7 @@ void AddShow(CLI::App* qos, int* exit_code) {
 void AddQosVerb(CLI::App* fleetctl, int* exit_code) {
   CLI::App* qos = fleetctl->add_subcommand("qos", "Explain, check, change and tune QoS");
   qos->require_subcommand(1);
-  qos->footer("\nMore: fleetctl qos check --help, and so on\n");
+  qos->footer(kQosFooter);
   AddCheck(qos, exit_code);
   AddShow(qos, exit_code);
   AddQosApply(qos, exit_code);

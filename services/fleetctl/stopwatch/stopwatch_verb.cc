@@ -14,9 +14,12 @@ until each peer reports in its log that it noticed, by each mechanism: age of th
 LIVELINESS, participant lease, leave notice (good_bye). --table shows which must notice which fault, and within what time.
 
 Faults
-  kill     kill -9                      hung     the control loop stops, other threads run
-  pause    SIGSTOP                      cut      no packet between it and its peers, either way
-  exit     SIGTERM                      one_way  its packets are lost, it hears its peers
+  kill     kill -9
+  pause    SIGSTOP
+  exit     SIGTERM
+  hung     the control loop stops, other threads run
+  cut      no packet between it and its peers, either way
+  one_way  its packets are lost, it hears its peers
 
 Examples
   fleetctl stopwatch --quick
