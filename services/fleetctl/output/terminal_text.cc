@@ -27,7 +27,8 @@ struct Verdict {
 constexpr std::array kVerdicts = {
     Verdict{"passed", kGreen},      Verdict{"It fits.", kGreen},
     Verdict{"Verified", kGreen},    Verdict{"failed", kRed},
-    Verdict{"FAILED", kRed},        Verdict{"not_run", kRed},
+    Verdict{"PASSED", kGreen},      Verdict{"FAILED", kRed},
+    Verdict{"NOT RUN", kRed},       Verdict{"not_run", kRed},
     Verdict{"error", kRed},         Verdict{"It does not fit.", kRed},
     Verdict{"does not hear", kRed}, Verdict{"interrupted", kYellow},
     Verdict{"warning", kYellow},    Verdict{"rolled back", kYellow},

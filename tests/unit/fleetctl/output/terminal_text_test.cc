@@ -13,6 +13,13 @@ TEST(TerminalText, AVerdictIsColouredAndNothingElse) {
   EXPECT_EQ(InColour("nothing here\n"), "nothing here\n");
 }
 
+// The first was not: only a run that failed showed a colour.
+TEST(TerminalText, TheVerdictsOfRunsAndSoaksAreColoured) {
+  EXPECT_EQ(InColour("PASSED  four_way: all_held"), "\x1b[32mPASSED\x1b[0m  four_way: all_held");
+  EXPECT_EQ(InColour("FAILED  four_way: contact"), "\x1b[31mFAILED\x1b[0m  four_way: contact");
+  EXPECT_EQ(InColour("NOT RUN  four_way: x"), "\x1b[31mNOT RUN\x1b[0m  four_way: x");
+}
+
 TEST(TerminalText, TheFirstVerdictOfALineIsTheOne) {
   EXPECT_EQ(InColour("failed: 3 passed"), "\x1b[31mfailed\x1b[0m: 3 passed");
 }
