@@ -9,6 +9,8 @@ programs=$(dirname "$FLEETCTL")
 verbs_of() { "$FLEETCTL" "$@" --help | sed -n '/^Verbs:/,/^$/s/^  \([a-z]\+\) .*/\1/p'; }
 # on_terminal COLUMNS COMMAND: its output on a terminal so wide.
 on_terminal() { script -qec "stty cols $1; $2" /dev/null </dev/null | tr -d '\r'; }
+# The widest of its lines, without colours.
+widest() { sed 's/\x1b\[[0-9;]*m//g' | wc -L; }
 
 mapfile -t verbs < <(verbs_of)
 [[ ${#verbs[@]} -ge 15 ]] || fail "verbs: ${verbs[*]}"
@@ -25,6 +27,7 @@ for page in "${pages[@]}"; do
   "$FLEETCTL" help $page | cmp -s - help || fail "help $page is not $page --help"
   [[ $(wc -L <help) -le 80 ]] || fail "$page --help: $(wc -L <help) columns"
   ! grep -nE 'UINT|4294967295|TEXT:' help || fail "$page --help names a type of a program"
+  sed -n '/^Examples:/,/^$/p' help | grep -q "fleetctl $page" || fail "$page --help: no example of its own"
   for columns in 66 120; do
     wide=$(on_terminal "$columns" "$FLEETCTL $page --help" | wc -L)
     [[ $wide -le $columns ]] || fail "$page --help: $wide columns on a terminal of $columns"
@@ -74,6 +77,13 @@ completed() { # WORD...: what bash offers for the last one
 [[ $(completed "$FLEETCTL" run intersection_y) == intersection_yield ]] || fail "run intersection_y"
 [[ $(completed "$FLEETCTL" run x --qos los) == lossy_radio ]] || fail "--qos los"
 [[ $(completed "$FLEETCTL" run x --log-level w) == warning ]] || fail "--log-level w"
+
+# Tables are as wide as the terminal.
+for shown in "faults list" "faults expand everything --duration 5m --vehicles 8 --text" "qos show fleet/beacon" \
+  "qos show --diff default lossy_radio" "stopwatch --table" "plan --vehicles 8"; do
+  wide=$(on_terminal 80 "$FLEETCTL $shown || true" | widest)
+  [[ $wide -le 80 ]] || fail "$shown: $wide columns on a terminal of 80"
+done
 
 # Colours on a terminal, and none where NO_COLOR is set or nothing is a terminal.
 green=$'\e[32m'

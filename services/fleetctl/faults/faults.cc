@@ -6,6 +6,7 @@
 #include "services/config/faults/faults_file.h"
 #include "services/fleetctl/faults/faults_show.h"
 #include "services/fleetctl/output/output_file.h"
+#include "services/fleetctl/output/terminal_text.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -23,9 +24,10 @@ int RunFaultsExpand(const FaultsOptions& options) {
   for (std::uint32_t id = 1; id <= options.vehicles; ++id) vehicles.push_back(VehicleId{id});
   const faults::Expansion expansion = LoadAndExpandFaults(options.file, options.course, vehicles);
   if (options.json) return Print(ExpansionJson(expansion));
-  return Print(options.text ? ExpansionText(expansion) : ExpansionFile(expansion));
+  return Print(options.text ? FoldedForTerminal(ExpansionText(expansion))
+                            : ExpansionFile(expansion));
 }
 
-int RunFaultsList(bool json) { return Print(json ? KindsJson() : KindsText()); }
+int RunFaultsList(bool json) { return Print(json ? KindsJson() : FoldedForTerminal(KindsText())); }
 
 }  // namespace giveway::fleetctl

@@ -94,6 +94,7 @@ void AddHelpVerbs(CLI::App* fleetctl, const std::string& version, int* exit_code
   AddHelp(fleetctl, exit_code);
   AddCompletion(fleetctl, exit_code);
   CLI::App* verb = fleetctl->add_subcommand("version", "Print the version, and Fast DDS's");
+  verb->footer("\nExamples\n  fleetctl version\n");
   verb->callback([version, exit_code] {
     std::printf("%s\n", version.c_str());
     *exit_code = 0;

@@ -160,9 +160,14 @@ std::string ProgressLine(std::uint64_t done, std::uint64_t all, const std::strin
 
 std::string ForTerminal(const std::string& text) {
   if (::isatty(STDOUT_FILENO) != 1) return text;
-  const std::string folded = Folded(text, static_cast<std::size_t>(SizeOfTerminal().columns));
+  const std::string folded = FoldedForTerminal(text);
   const bool forbidden = Environment("NO_COLOR") || Environment("TERM").value_or("dumb") == "dumb";
   return forbidden ? folded : InColour(folded);
+}
+
+std::string FoldedForTerminal(const std::string& text) {
+  if (::isatty(STDOUT_FILENO) != 1) return text;
+  return Folded(text, static_cast<std::size_t>(SizeOfTerminal().columns));
 }
 
 std::size_t StderrColumns() {

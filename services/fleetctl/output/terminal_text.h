@@ -27,6 +27,8 @@ std::string ProgressLine(std::uint64_t done, std::uint64_t all, const std::strin
 // Queries the terminal: if stdout is one, `text` is folded to its width, and coloured unless
 // NO_COLOR or TERM forbid it.
 std::string ForTerminal(const std::string& text);
+// Folded alone: for lists and tables without a verdict.
+std::string FoldedForTerminal(const std::string& text);
 // Of stderr; 80 if it is not a terminal.
 std::size_t StderrColumns();
 

@@ -11,6 +11,7 @@
 
 #include "services/fleetctl/args/observer_session.h"
 #include "services/fleetctl/args/qos_files.h"
+#include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/process/run_key.h"
@@ -182,8 +183,8 @@ int RunQosLive(const QosLiveOptions& options) {
   const auto live = LiveQosOf(options, set.file, &exit_code);
   if (!live) return exit_code;
   const std::vector<LiveRow> all = HoldAgainst(set, *live, options.set.wanted);
-  const std::string text =
-      options.set.json ? ToJson(options, set.file, *live, all) : Text(set.file, *live, all);
+  const std::string text = options.set.json ? ToJson(options, set.file, *live, all)
+                                            : ForTerminal(Text(set.file, *live, all));
   std::fputs(text.c_str(), stdout);
   if (std::fflush(stdout) != 0) return kCouldNotRun;
   return std::ranges::all_of(all, &LiveRow::AsExpected) ? 0 : 1;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "services/config/problem.h"
+#include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/qos/qos_effective.h"
 #include "services/runtime/json.h"
@@ -126,13 +127,14 @@ std::string ToJson(const std::vector<Difference>& differences, const EffectiveSe
 int RunQosShow(const QosShowOptions& options) {
   if (options.diff.empty()) {
     const EffectiveSet shown = Resolve(options.qos_file, options);
-    std::fputs((options.json ? ToJson(shown) : ToText(shown)).c_str(), stdout);
+    std::fputs((options.json ? ToJson(shown) : FoldedForTerminal(ToText(shown))).c_str(), stdout);
     return std::fflush(stdout) == 0 ? 0 : kCouldNotRun;
   }
   const EffectiveSet a = Resolve(options.diff.at(0), options);
   const EffectiveSet b = Resolve(options.diff.at(1), options);
   const std::vector<Difference> found = Differences(a, b);
-  std::fputs((options.json ? ToJson(found, a, b) : ToText(found, a, b)).c_str(), stdout);
+  std::fputs((options.json ? ToJson(found, a, b) : FoldedForTerminal(ToText(found, a, b))).c_str(),
+             stdout);
   return std::fflush(stdout) != 0 ? kCouldNotRun : found.empty() ? 0 : 1;
 }
 

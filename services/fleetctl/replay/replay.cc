@@ -11,6 +11,7 @@
 
 #include "services/fleetctl/output/decision_trace.h"
 #include "services/fleetctl/output/output_file.h"
+#include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/replay/replayer.h"
 #include "services/recording/recording_file.h"
@@ -128,7 +129,7 @@ int RunReplay(const ReplayOptions& options) {
     files[file] = ReplayFile(options.files[file], watch, &replayer);
     files[file].file = options.files[file];
   }
-  const std::string text = options.json ? ToJson(files) + "\n" : ToText(files);
+  const std::string text = options.json ? ToJson(files) + "\n" : ForTerminal(ToText(files));
   std::fputs(text.c_str(), stdout);
   const bool written = std::fflush(stdout) == 0;
   if (!written) std::fprintf(stderr, "cannot write the verdict to stdout\n");

@@ -106,8 +106,10 @@ int RunReport(const ReportOptions& options) {
     return kCouldNotRun;
   }
   const SoakComparison comparison = Compare(results[0], results[1]);
-  std::fputs((options.json ? ToJson(comparison) + "\n" : ToText(comparison, options.all)).c_str(),
-             stdout);
+  std::fputs(
+      (options.json ? ToJson(comparison) + "\n" : ForTerminal(ToText(comparison, options.all)))
+          .c_str(),
+      stdout);
   return comparison.AnyWorse() ? 1 : 0;
 }
 

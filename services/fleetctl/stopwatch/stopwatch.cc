@@ -13,6 +13,7 @@
 #include "services/config/scenario_file.h"
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/output/output_file.h"
+#include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/child_process.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
@@ -182,7 +183,7 @@ int RunStopwatch(const StopwatchOptions& options) {
   const Limits limits =
       ReadLimits(qos_file, options.interface, options.vehicles + 1, scenario.vehicles.front());
   if (options.table) {
-    std::fputs(TableText(limits).c_str(), stdout);
+    std::fputs(FoldedForTerminal(TableText(limits)).c_str(), stdout);
     return 0;
   }
   if (!options.logs_folder.empty()) CheckFolder(options.logs_folder);
@@ -196,7 +197,8 @@ int RunStopwatch(const StopwatchOptions& options) {
   spec.options.vehicles = 0;  // without an id of the scenario
   Session session(options, spec, limits);
   const StopwatchReport report = session.Run();
-  std::fputs((options.json ? StopwatchJson(report) : StopwatchText(report)).c_str(), stdout);
+  std::fputs((options.json ? StopwatchJson(report) : ForTerminal(StopwatchText(report))).c_str(),
+             stdout);
   if (std::fflush(stdout) != 0) {
     std::fprintf(stderr, "cannot write the figures to stdout\n");
     return kCouldNotRun;

@@ -15,6 +15,7 @@
 #include "services/config/scenario_file.h"
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/output/output_file.h"
+#include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/child_process.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
@@ -280,7 +281,7 @@ int RunQosTune(const QosTuneOptions& options) {
     const TuneResult result = tuning.Run();
     const TuneStore& store = tuning.Store();
     const std::string& chosen = result.candidates[result.recommended].candidate.name;
-    const bool written = Print(options.json ? ToJson(result) + "\n" : ToText(result));
+    const bool written = Print(options.json ? ToJson(result) + "\n" : ForTerminal(ToText(result)));
     return WriteAfterVerdict(written && result.IsBetter() ? 0 : 1, [&] {
       store.Write("recommended.xml", Headed(tuning.ProfileOf(chosen), result));
       store.Write("evidence.json", ToJson(result) + "\n");
