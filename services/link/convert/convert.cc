@@ -43,7 +43,7 @@ class Packer {
     words_[used_++] = word;
   }
 
-  std::array<std::uint64_t, 26> words_;  // 200 bytes and space for the next field
+  std::array<std::uint64_t, 26> words_;  // 200 bytes, and space for one more field of 4
   std::size_t used_ = 0;
   std::uint64_t pending_ = 0;  // low half: the last 32 bits added, while half_
   bool half_ = false;
