@@ -79,7 +79,7 @@ class World {
   std::span<const MovingObstacle> Obstacles() const { return obstacles_; }
   std::span<const SlidingDoor> Doors() const { return doors_; }
 
-  // For further sensors: all shapes as they are after the last tick, and what may be known of the
+  // For auxiliary sensors: all shapes as they are after the last tick, and what may be known of the
   // owners of shapes: the index in Bodies(), then obstacles, then doors.
   const Scene& SceneNow() { return sensing_.SceneAtEnd(dt_s_, collidables_, bodies_); }
   OwnerFacts FactsOf(Owner owner) const;

@@ -57,7 +57,7 @@ void Admission::FollowRun() {
     gone_.push_back(event.vehicle);
     const auto informed = informed_.find(event.vehicle);
     if (informed == informed_.end()) continue;
-    // If it is still there and was deaf until now, it may ask again.
+    // If it is still there and received nothing until now, it may ask again.
     RosterEntry gone = informed->second;
     gone.accepted = false;
     gone.waiting = true;

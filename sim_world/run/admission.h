@@ -1,4 +1,4 @@
-// Admits vehicles to a running world: keeps join requests until a seat is free for them, puts
+// Admits vehicles to a running world: keeps join requests until a slot is free for them, puts
 // bodies into the run and removes them, and decides what each session is sent. A vehicle continues
 // only from where the world says that its body stands.
 #pragma once
@@ -26,7 +26,7 @@ class Admission {
 
   // Joins, or leaves. A waiting session repeats its request: one that does not is forgotten.
   void Take(const JoinRequest& request);
-  // Once a tick, after the run's Advance: frees the seats of bodies that were removed.
+  // Once a tick, after the run's Advance: frees the slots of bodies that were removed.
   void FollowRun();
   // Vehicles whose bodies were removed since the last call: nothing else is sent to them any more,
   // except what Answer returns after it.
@@ -40,7 +40,7 @@ class Admission {
   const std::map<VehicleId, RosterEntry>& Informed() const { return informed_; }
   // Requests that found the waiting list full.
   std::uint32_t PassedOver() const { return passed_over_; }
-  // Seats in use, whether informed or not: after Restore none is.
+  // Slots in use, whether informed or not: after Restore none is.
   std::vector<VehicleId> Expected() const;
 
   FleetCheckpoint Save(std::uint64_t scenario) const;

@@ -1,4 +1,4 @@
-// Assigns places: one seat per vehicle id, with the session that has it. Answers join requests by
+// Assigns places: one slot per vehicle id, with the session that has it. Answers join requests by
 // the scenario's list of vehicles and, in an open fleet, by its spawn places. Knows no bodies: it
 // asks the caller whether a place is free and whether a session is alive.
 #pragma once
@@ -22,9 +22,9 @@ struct Slot {
   SessionId session{};
 };
 
-// What must be known about the world to assign a seat.
+// What must be known about the world to assign a slot.
 struct SlotQuestions {
-  // Whether the session with the vehicle's seat has fallen silent: then another may have it.
+  // Whether the session with the vehicle's slot has fallen silent: then another may have it.
   std::function<bool(VehicleId)> is_silent = [](VehicleId) { return false; };
   // Whether a body could be put where these options start.
   std::function<bool(const VehicleOptions&)> is_free = [](const VehicleOptions&) { return true; };
@@ -37,21 +37,21 @@ class Roster {
 
   Roster(const Scenario& scenario, WorldEpoch epoch);
 
-  // Accepted with id and start pose; or `waiting` with the reason, if a seat may still become free;
-  // or refused permanently with a reason. A session that has a seat always gets the same answer,
+  // Accepted with id and start pose; or `waiting` with the reason, if a slot may still become free;
+  // or refused permanently with a reason. A session that has a slot always gets the same answer,
   // whatever id it asks for. run_state is set by the caller.
   RosterEntry Admit(const JoinRequest& request, const SlotQuestions& ask = {});
-  // Frees the vehicle's seat.
+  // Frees the vehicle's slot.
   void Free(VehicleId vehicle);
 
-  // The seat of the session; null if it has none.
+  // The slot of the session; null if it has none.
   const Slot* SlotOf(const SessionId& session) const;
-  // The options with which the vehicle of a seat drives.
+  // The options with which the vehicle of a slot drives.
   VehicleOptions OptionsOf(const Slot& slot) const;
 
   // By id: the scenario's vehicles, taken or not, and those of other vehicles that are taken.
   std::span<const Slot> Slots() const { return slots_; }
-  // Returns false, and changes nothing, if a seat is not of this scenario.
+  // Returns false, and changes nothing, if a slot is not of this scenario.
   bool Restore(std::span<const Slot> slots);
 
  private:

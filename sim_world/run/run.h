@@ -1,4 +1,4 @@
-// One run of a scenario: the world, its faults and its judge, advanced tick by tick. Pure: the
+// One run of a scenario: the world, its faults and its evaluator, advanced tick by tick. Pure: the
 // caller passes commands in and takes scans, truths and events out. The world service connects it
 // to DDS, the virtual fleet connects it to brains in memory.
 //

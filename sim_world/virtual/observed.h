@@ -1,4 +1,4 @@
-// What the judges of a fleet know of one vehicle at one tick: the truth, and what it published.
+// What the checks of a fleet know of one vehicle at one tick: the truth, and what it published.
 // Virtual runs fill it in from their brains, real ones from world/truth, beacons and status.
 #pragma once
 

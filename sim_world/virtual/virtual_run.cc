@@ -21,7 +21,7 @@ bool BelievesArrived(const Observed& now, bool before, const GoalTolerance& tole
          Norm(now.position_world - tolerance.at_world) <= tolerance.beyond_m;
 }
 
-// `before` is who had arrived, by the world or by itself, at the last look.
+// `before`: which vehicles had arrived, by the world or by themselves, in the last tick.
 void NoteBelievedArrivals(std::span<const GoalTolerance> tolerances, std::vector<bool>* before,
                           std::vector<Observed>* observed) {
   for (std::size_t i = 0; i < observed->size(); ++i) {

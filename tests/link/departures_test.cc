@@ -195,7 +195,7 @@ TEST(Departures, OfVehiclesWhoseHistoryWasAllNewLeaveNoInstance) {
       listener.Listen();
       return listener.Matched() == 4 && listener.Vehicles().size() == 4;
     }));
-    // More than the history holds, before the listener's next look.
+    // More than the history holds, before the listener's next Listen.
     for (int i = 0; i < 12; ++i) send();
     Repeat(milliseconds(100), [&] { listener.FollowMatches(); });
     listener.Listen();

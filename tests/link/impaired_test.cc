@@ -28,7 +28,7 @@ link::LinkOptions ImpairedIn(const DomainLock& domain, std::vector<ImpairmentRul
   return options;
 }
 
-// A vehicle that hears through `rules`, and its ears.
+// A vehicle that receives through `rules`, and the monitor of what it receives.
 struct Listener {
   Listener(const DomainLock& domain, std::vector<ImpairmentRule> rules)
       : link(rules.empty() ? OptionsIn(domain) : ImpairedIn(domain, std::move(rules))),
@@ -140,7 +140,7 @@ TEST(Impaired, SecondCopiesAndOvertakenOnesAreNotHeardByABestEffortReader) {
 }
 
 // One corrupted sequence number that the library accepts makes a best-effort reader permanently
-// all_lost to the writer: hence one sender after the other.
+// ignore the writer: hence one sender after the other.
 TEST(Impaired, SpoiltBeaconsAreHeardAsSpoiltAndEverySoundOneIsTrue) {
   const DomainLock domain;
   Listener listener(domain, {{.from = ImpairedSender::kVehicles, .corrupt = 0.3}});

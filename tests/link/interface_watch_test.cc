@@ -1,4 +1,4 @@
-// What of the interfaces leaves a participant deaf. No interface is touched.
+// Which changes of interfaces leave a participant without reception. No interface is changed.
 #include "services/link/fastdds/interface_watch.h"
 
 #include <gmock/gmock.h>

@@ -29,7 +29,7 @@ int StatusOf(const std::function<void()>& act) {
   return status;
 }
 
-// The word behind this one on the command line.
+// The argument after this one on the command line.
 std::optional<std::string> Argument(const std::string& name) {
   const std::vector<std::string> own = OwnArguments();
   const auto found = std::ranges::find(own, name);

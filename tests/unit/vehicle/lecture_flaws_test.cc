@@ -61,7 +61,7 @@ TEST_P(LectureFlaw, No5ADeadPeerIsNotBelievedForEver) {
   EXPECT_EQ(outcome.arrived, Ids{1});
 }
 
-// Fixed by the order key: forward cruise, not left squared plus right squared.
+// Fixed by the priority key: forward cruise, not left squared plus right squared.
 TEST(LectureFlaw, No6ASpinningVehicleIsNotAFastOne) {
   const PriorityKey spinning{.speed_bucket = 4, .vehicle = VehicleId{1}};
   const PriorityKey driving{.speed_bucket = 6, .vehicle = VehicleId{2}};
@@ -87,8 +87,8 @@ TEST_P(LectureFlaw, No8TwoParkedNoseToNoseLeave) {
   EXPECT_EQ(outcome.arrived, (Ids{1, 2}));
 }
 
-// Fixed in vehicle.cc, DetectMovers: unidentified motion within the critical distance halts, and
-// the halt names its cause.
+// Fixed in mover_watch.cc, DetectMovers: unidentified motion within the critical distance halts,
+// and the halt names its cause.
 TEST_P(LectureFlaw, No9CriticalButDeafHalts) {
   Scenario scenario = Crossing(GetParam(), 0.4, 0.3);
   for (VehicleOptions& vehicle : scenario.vehicles) vehicle.emission_radius_m = 0.6;

@@ -136,7 +136,7 @@ TEST(PoseKeeping, AFixIsUsedFromTheTickAfterItsOwnOn) {
   EXPECT_GT(keeper.odometry.WorldFromBody().position_world.x, 0.05);
 }
 
-// A fix ten ticks late tells where the vehicle was, not where it is.
+// A fix ten ticks late says where the vehicle was, not where it is.
 TEST(PoseKeeping, ALateFixIsComparedWithWhereItWasThen) {
   Keeper keeper(Fitted());
   keeper.odometry = Odometry({}, {.xx_m2 = 0.01, .yy_m2 = 0.01});

@@ -123,7 +123,7 @@ TEST(Vehicle, ANewWorldEpochForgetsWhatTheOldOneShowed) {
   Outputs out;
   for (int tick = 1; tick <= 12; ++tick) {
     RangeScan scan = ClearScan(0);
-    test::SetEcho(&scan, 0, 0.95 - 0.02 * tick);  // something comes nearer: deaf
+    test::SetEcho(&scan, 0, 0.95 - 0.02 * tick);  // approaches, unidentified
     out = bench.Step(scan, tick == 12 ? std::vector{standing} : std::vector<Beacon>{});
   }
   ASSERT_EQ(out.command.decision.rule, Rule::kUnidentifiedMotion);

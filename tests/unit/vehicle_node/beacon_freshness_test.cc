@@ -35,7 +35,7 @@ class BeaconFreshnessTest : public testing::Test {
   BeaconCounters counters_;
   TrustCounters trust_;
   BeaconFreshnessMonitor freshness_;
-  std::uint32_t seq_ = 95;  // the tick it was said in, too: not old by ticks
+  std::uint32_t seq_ = 95;  // the tick it was sent in, too: not old by ticks
 };
 
 TEST_F(BeaconFreshnessTest, APeerIsToldOnceWhenItIsHeardAndOnceWhenItIsStale) {

@@ -57,7 +57,7 @@ TEST_F(ClaimsTest, OneThatCannotStopWithinLeavesThem) {
   EXPECT_EQ(Drive(0.9, 0.03, &claims), 1U);
 }
 
-// The deviation per tick is too small for any later beacon to show: after the order to stop it
+// The deviation per tick is too small for any later beacon to show: after the command to stop it
 // stands where its last beacon said.
 TEST_F(ClaimsTest, OneThatBrakesOnAnArcLeavesThem) {
   Claims claims(scenario_);

@@ -59,8 +59,8 @@ TEST(RadioRules, AFlappingOneIsOnForTheFirstHalfOfEachPeriod) {
   EXPECT_EQ(CutTicks(rule, 1, 0), expected);
 }
 
-// 1000 beacons of vehicle 2 in the ear of vehicle 1, under a rule that is on in the ticks 200 to
-// 799: how many beacons come twice, late, or not at all, of those said within and without.
+// 1000 beacons of vehicle 2 as vehicle 1 receives them, under a rule that is on in the ticks 200 to
+// 799: how many come twice, late, or not at all, of those sent while it is on and while it is off.
 struct Tally {
   int lost = 0;
   int twice = 0;

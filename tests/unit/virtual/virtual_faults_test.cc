@@ -116,7 +116,7 @@ TEST(VirtualFaults, AKilledVehicleIsNotWaitedFor) {
   EXPECT_EQ(outcome.delays_s.size(), 1U);
 }
 
-// Longer than the world waits for a word: it is taken back nevertheless, where it stands.
+// Longer than the world waits for a command: it is taken back nevertheless, where it stands.
 TEST(VirtualFaults, AVehiclePausedForSecondsIsTakenBack) {
   VirtualFleet fleet(TwoOnARoad(), Planned({FaultFor(Kind::kPause, 4, 3)}));
   fleet.Finish();

@@ -1,4 +1,4 @@
-// Which answer to an order counts: the service's own or an intruder's.
+// Which answer to an administrative request counts: the service's own or an intruder's.
 #include "services/fleetctl/qos/awaited_answer.h"
 
 #include <gtest/gtest.h>
