@@ -94,8 +94,8 @@ void Contacts::Gather(std::span<const NearPair> pairs, const Collidables& collid
 }
 
 // Links the candidates of each thing into a chain.
-void Contacts::Chain(std::size_t collidables) {
-  first_of_.assign(collidables, kNone);
+void Contacts::Chain(std::size_t count) {
+  first_of_.assign(count, kNone);
   for (std::uint32_t i = 0; i < candidates_.size(); ++i) {
     Candidate& candidate = candidates_[i];
     candidate.next_of_a = std::exchange(first_of_[candidate.hit.a], i);

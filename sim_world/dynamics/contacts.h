@@ -59,7 +59,7 @@ class Contacts {
   void WallsNear(const Motion& motion, double travel_m, const Visit& visit) const;
   void Gather(std::span<const NearPair> pairs, const Collidables& collidables, double dt_s,
               const ParallelFor& parallel);
-  void Chain(std::size_t collidables);
+  void Chain(std::size_t count);
   double NextHit(const Hit& candidate, const Collidables& collidables, double from_s) const;
   void Enqueue(std::uint32_t candidate);
   void Stop(const Hit& hit, Collidables* collidables);

@@ -32,11 +32,11 @@ double Course::Folded(double progress_m) const {
 
 Vec2 Course::At(double progress_m) const {
   if (IsEmpty()) return corners_world_.front();
-  const double path_m = Folded(progress_m);
-  const auto next = std::upper_bound(until_m_.begin(), until_m_.end(), path_m);
+  const double along_m = Folded(progress_m);
+  const auto next = std::upper_bound(until_m_.begin(), until_m_.end(), along_m);
   if (next == until_m_.end()) return corners_world_.back();
   const auto i = static_cast<std::size_t>(next - until_m_.begin());
-  const double share = (path_m - until_m_[i - 1]) / (until_m_[i] - until_m_[i - 1]);
+  const double share = (along_m - until_m_[i - 1]) / (until_m_[i] - until_m_[i - 1]);
   return corners_world_[i - 1] + share * (corners_world_[i] - corners_world_[i - 1]);
 }
 
@@ -56,8 +56,8 @@ Motion MovingObstacle::Plan(bool moving, double dt_s) const {
   if (!moving || !EverMoves()) return motion;
   const double reach_m = speed_m_s_ * dt_s;
   const Vec2 displacement = course_.At(state_.progress_m + reach_m) - state_.position_world;
-  const double path_m = Norm(displacement);
-  motion.slide_world = (path_m > reach_m ? reach_m / path_m : 1.0) / dt_s * displacement;
+  const double distance_m = Norm(displacement);
+  motion.slide_world = (distance_m > reach_m ? reach_m / distance_m : 1.0) / dt_s * displacement;
   return motion;
 }
 

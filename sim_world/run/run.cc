@@ -151,7 +151,7 @@ void Run::Observe() {
   LogSchedule();
   evaluator_.Observe(TimeSeconds(), world_.Bodies(), world_.NewContacts(), &log_);
   FollowFaults();
-  FollowAttendance();
+  FollowLiveness();
 }
 
 void Run::LogSchedule() {
@@ -200,7 +200,7 @@ void Run::FollowFaults() {
   }
 }
 
-void Run::FollowAttendance() {
+void Run::FollowLiveness() {
   const Tick now = world_.Now();
   for (VehicleId silent; (silent = liveness_.TakeNewlySilent(now)) != kNoVehicle;) {
     log_.Add({.kind = EventKind::kSilent, .vehicle = silent});

@@ -128,7 +128,7 @@ class Run {
   void Announce(EventKind kind, VehicleId vehicle);
   void Observe();
   void FollowFaults();
-  void FollowAttendance();
+  void FollowLiveness();
   void CheckEnd();
   bool EveryoneLivingArrived() const;
   bool IsEveryoneSilent() const;

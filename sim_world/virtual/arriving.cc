@@ -35,10 +35,10 @@ GoalTolerance ToleranceOf(const VehicleOptions& options) {
     return {options.goal.at_world, options.goal.radius_m + kSigmas * profile.pose_limit_m};
   }
   if (squared == 0) return {};
-  const double path_m = kDetour * RouteLength(options);
+  const double route_length_m = kDetour * RouteLength(options);
   const double tick_m = options.cruise_m_s * Seconds(options.tick_period);
   const double heading_rad = Sqrt(2 * squared) * tick_m / profile.drive.axle_m;
-  const double beside_m = heading_rad * path_m * Sqrt(path_m / tick_m / 3);
+  const double beside_m = heading_rad * route_length_m * Sqrt(route_length_m / tick_m / 3);
   return {options.goal.at_world, options.goal.radius_m + kSigmas * beside_m};
 }
 

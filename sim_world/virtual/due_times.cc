@@ -30,9 +30,9 @@ double RouteLength(const VehicleOptions& options) {
 }
 
 double FreeFlowSeconds(const VehicleOptions& options) {
-  const double path_m = std::max(0.0, RouteLength(options) - options.goal.radius_m);
+  const double route_length_m = std::max(0.0, RouteLength(options) - options.goal.radius_m);
   const double cruise = options.cruise_m_s;
-  return path_m / cruise + cruise / (2 * options.profile.acceleration_m_s2) +
+  return route_length_m / cruise + cruise / (2 * options.profile.acceleration_m_s2) +
          cruise / (2 * options.profile.deceleration_m_s2);
 }
 

@@ -137,8 +137,8 @@ Scenario MakeMixedYard(const Size& size) {
       std::max(3.0, std::ceil(std::sqrt(20.0 * size.vehicles) / kCell_m)));
   const double side_m = kCell_m * (columns - 1);
   layout.AddCellToCell(size.vehicles, columns);
-  const std::uint32_t collidables = 2 + size.vehicles / 2;
-  for (std::uint32_t i = 0; i < collidables; ++i) {
+  const std::uint32_t obstacle_count = 2 + size.vehicles / 2;
+  for (std::uint32_t i = 0; i < obstacle_count; ++i) {
     double best_m = 1e6;
     Thing best;
     for (int draw = 0; draw < kDraws; ++draw) {

@@ -131,7 +131,7 @@ void Invariants::Observe(Tick tick, double time_s, std::span<const Observed> veh
   for (std::size_t i = 0; i < vehicles.size(); ++i) JudgeOrder(tick, vehicles[i], &tracks_[i]);
   JudgeCircles(tick, vehicles);
   JudgeAllHalted(tick, vehicles);
-  CheckPaths(tick, time_s, vehicles);
+  JudgeLightsAndProgress(tick, time_s, vehicles);
   JudgeStanding(tick, vehicles);
   JudgeBodies(tick, time_s, vehicles, around);
 }
@@ -291,7 +291,8 @@ void Invariants::JudgeAllHalted(Tick tick, std::span<const Observed> vehicles) {
   if (halted_ticks_ == limits_.halted_ticks + 1) Report(Invariant::kAllHalted, tick, first);
 }
 
-void Invariants::CheckPaths(Tick tick, double time_s, std::span<const Observed> vehicles) {
+void Invariants::JudgeLightsAndProgress(Tick tick, double time_s,
+                                        std::span<const Observed> vehicles) {
   for (const std::uint32_t i : red_lights_.Observe(time_s, vehicles)) {
     Report(Invariant::kRedLight, tick, vehicles[i].vehicle);
   }

@@ -150,7 +150,7 @@ class Invariants {
   void JudgePose(Tick tick, const Observed& now, Track* track);
   void JudgeCircles(Tick tick, std::span<const Observed> vehicles);
   void JudgeAllHalted(Tick tick, std::span<const Observed> vehicles);
-  void CheckPaths(Tick tick, double time_s, std::span<const Observed> vehicles);
+  void JudgeLightsAndProgress(Tick tick, double time_s, std::span<const Observed> vehicles);
   void JudgeBodies(Tick tick, double time_s, std::span<const Observed> vehicles,
                    const Surroundings& around);
   bool MustArrive(const Track& track) const;

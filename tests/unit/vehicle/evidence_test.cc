@@ -51,9 +51,9 @@ TEST(Evidence, TellsTheGapToThePeerThatIsGivenWayTo) {
   BrainBench bench(options);
   // From the right, faster, on a crossing path.
   const auto beacon = [](std::uint32_t tick) {
-    Beacon slow = BeaconOf(2, tick, Pose{{1.2, -1.2}, kPi / 2}, 0.5);
-    slow.wheels = WheelsFromTwist(slow.drive, {0.3, 0});
-    return slow;
+    Beacon made = BeaconOf(2, tick, Pose{{1.2, -1.2}, kPi / 2}, 0.5);
+    made.wheels = WheelsFromTwist(made.drive, {0.3, 0});
+    return made;
   };
   for (std::uint32_t tick = 1; tick < 40; ++tick) {
     const Outputs said = bench.Step(RollingScan(0.3), {beacon(tick)});

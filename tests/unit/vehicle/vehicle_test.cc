@@ -92,13 +92,13 @@ TEST(Vehicle, AfterAPauseItDoesNotKnowWhetherItTurnedFirstOrLast) {
   bench.Step(Arc());
   bench.RollOn({2, 4});
   for (int i = 0; i < 20; ++i) bench.StepBlind();
-  const double path_m = 21 * 0.05 * 3 * 0.0975;
+  const double driven_m = 21 * 0.05 * 3 * 0.0975;
   const double turned_rad = 21 * 0.05 * 2 * 0.0975 / 0.33;
   RangeScan scan = ClearScan(0);
   scan.wheels = {2, 4};
   const double sigma_m = SigmaPosition(bench.Step(scan).beacon.covariance);
-  EXPECT_GT(sigma_m, 0.4 * path_m * turned_rad);
-  EXPECT_LT(sigma_m, 0.7 * path_m * turned_rad);
+  EXPECT_GT(sigma_m, 0.4 * driven_m * turned_rad);
+  EXPECT_LT(sigma_m, 0.7 * driven_m * turned_rad);
 }
 
 TEST(Vehicle, CountsThatNoDriveMadeAreNotBelieved) {
