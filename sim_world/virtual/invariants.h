@@ -32,7 +32,7 @@ enum class Invariant : std::uint8_t {
   kArrival,      // every live vehicle arrives within the duration, and at least one is live
   kPose,         // a vehicle was where its beacon says, within the uncertainty it states
   kRedLight,     // no vehicle drives past a red light: red_lights.h
-  kProgress,     // no vehicle is stuck: progress.h
+  kProgress,     // no vehicle is stuck: progress.h. The last that RequiredInvariants requires
   // Counted and reported in virtual runs, and enforced only on request: RequiredInvariants.
   kClearance,  // no vehicle drives nearer to anything than its margin: clearance.h
   kClaim,      // every body is where its beacons claim that it can be: claims.h
