@@ -59,7 +59,7 @@ TEST(SonarP3dx, OneTransducerOfEachArrayFiresAtATime) {
 }
 
 TEST(SonarP3dx, EverySlotIsSensedOnceAndAtItsStart) {
-  for (const int tick_ms : {10, 40, 50, 130}) {
+  for (const std::uint32_t tick_ms : {10U, 40U, 50U, 130U}) {
     OneVehicle vehicle(Faultless(SonarTier::kP3dx), {}, 1, Nanoseconds{tick_ms * 1'000'000});
     double expected_s = 0;
     for (std::uint32_t tick = 1; tick <= 40; ++tick) {

@@ -40,11 +40,11 @@ TEST(Order, IsStrictAndTotalOverDistinctIds) {
 
 // 4 is blocked by 1 and 1 by 33: all inherit the key of 4, and only 33 can clear the path.
 TEST(Order, WhoLendsItsKeyComesAfterWhomItIsLentTo) {
-  const PriorityKey lent = Key(0, 9, 4);
-  EXPECT_TRUE(HasPriority(lent, VehicleId{33}, lent, VehicleId{4}));
-  EXPECT_FALSE(HasPriority(lent, VehicleId{4}, lent, VehicleId{33}));
-  EXPECT_TRUE(HasPriority(lent, VehicleId{1}, lent, VehicleId{4}));
-  EXPECT_TRUE(HasPriority(lent, VehicleId{1}, lent, VehicleId{33}));
+  const PriorityKey inherited = Key(0, 9, 4);
+  EXPECT_TRUE(HasPriority(inherited, VehicleId{33}, inherited, VehicleId{4}));
+  EXPECT_FALSE(HasPriority(inherited, VehicleId{4}, inherited, VehicleId{33}));
+  EXPECT_TRUE(HasPriority(inherited, VehicleId{1}, inherited, VehicleId{4}));
+  EXPECT_TRUE(HasPriority(inherited, VehicleId{1}, inherited, VehicleId{33}));
 }
 
 }  // namespace
