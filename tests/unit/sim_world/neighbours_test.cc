@@ -34,7 +34,7 @@ std::vector<Pair> Sorted(std::span<const NearPair> found) {
 TEST(Neighbours, AreThoseBruteForceFinds) {
   Random random(5);
   Neighbours neighbours;
-  for (int round = 0; round < 200; ++round) {
+  for (std::uint32_t round = 0; round < 200; ++round) {
     const std::vector<Ball> balls = Scatter(&random, round % 150);
     const double margin_m = random.Uniform(0, 1) < 0.5 ? 1e-6 : random.Uniform(0, 3);
     std::vector<Pair> expected;

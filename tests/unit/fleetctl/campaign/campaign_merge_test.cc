@@ -60,8 +60,10 @@ RC_GTEST_PROP(CampaignMerge, IsTheSameHoweverItWasCutAndInWhateverOrder, ()) {
   const CampaignPlan plan = SmallCampaign();
   const MergedCampaign whole = MergeShards(ShardsOf(plan, 1));
   std::vector<NamedShard> shards = ShardsOf(plan, *rc::gen::inRange<std::uint32_t>(1, 40));
-  std::ranges::rotate(shards, shards.begin() + *rc::gen::inRange<std::ptrdiff_t>(
-                                                   0, static_cast<std::ptrdiff_t>(shards.size())));
+  std::rotate(shards.begin(),
+              shards.begin() +
+                  *rc::gen::inRange<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(shards.size())),
+              shards.end());
   const MergedCampaign merged = MergeShards(shards);
   RC_ASSERT(merged.problems.empty());
   RC_ASSERT(ReportJson(merged.result) == ReportJson(whole.result));

@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 
 RC_GTEST_PROP(CampaignRuns, HoldEveryRunExactlyOnce, ()) {
   CampaignPlan plan = SmallCampaign();
-  plan.generators.resize(*rc::gen::inRange(1, 4));
+  plan.generators.resize(*rc::gen::inRange<std::size_t>(1, 4));
   plan.seeds.low = *rc::gen::inRange<std::uint32_t>(0, 1000);
   plan.seeds.high = plan.seeds.low + *rc::gen::inRange<std::uint32_t>(0, 60);
   const auto of = *rc::gen::inRange<std::uint32_t>(1, 80);

@@ -157,7 +157,8 @@ TEST(ResourcesOverTime, ChanceIsNoLeakHoweverManyAreWatched) {
 
 TEST(ResourcesOverTime, SharedMemoryBelongsToTheFleet) {
   ResourceSeries series(kWarmUp_s);
-  for (int t = 0; t < 200; ++t) series.AddSharedMemory(t, 1'000'000 + 500'000ULL * (t / 10));
+  for (std::uint32_t t = 0; t < 200; ++t)
+    series.AddSharedMemory(t, 1'000'000 + 500'000ULL * (t / 10));
   const std::vector<ResourceSlope> slopes = series.Slopes();
   ASSERT_THAT(slopes, SizeIs(1));
   EXPECT_EQ(slopes[0].process, "fleet");
