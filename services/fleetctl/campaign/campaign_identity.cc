@@ -54,6 +54,7 @@ int ReadBuildId(dl_phdr_info* object, std::size_t /*size*/, void* found) {
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const ElfW(Phdr)& part = object->dlpi_phdr[i];
     if (part.p_type != PT_NOTE) continue;
+    // The loader gives addresses as numbers. NOLINTNEXTLINE(performance-no-int-to-ptr)
     const auto* notes = reinterpret_cast<const char*>(object->dlpi_addr + part.p_vaddr);
     const std::string id = BuildIdIn(notes, part.p_memsz);
     if (!id.empty()) *static_cast<std::string*>(found) = id;

@@ -56,8 +56,8 @@ void VehicleObservation::Take(const VehicleStatus& status) {
 }
 
 bool VehicleObservation::AddBody(Tick tick, sim::Observed* seen) const {
-  if (truths_.empty() || truths_.front().tick > tick) return true;  // it has not arrived yet
   const Truth* const truth = AroundOf(truths_, tick, &Truth::tick).last;
+  if (truth == nullptr) return true;  // it has not arrived yet
   if (truth->tick != tick) return false;
   seen->present = truth->present;
   seen->arrived = truth->arrived;

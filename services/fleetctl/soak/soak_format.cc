@@ -77,7 +77,7 @@ std::string FormatSpan(double seconds) {
   const auto whole = static_cast<std::uint64_t>(std::min(std::round(seconds), 1e12));
   if (whole < 120) return fmt::format("{} s", whole);
   if (whole < 7200) return fmt::format("{} min {} s", whole / 60, whole % 60);
-  if (whole < 2 * 86400) return fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
+  if (whole < 2ULL * 86400) return fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
   return fmt::format("{} d {} h", whole / 86400, whole / 3600 % 24);
 }
 

@@ -104,7 +104,7 @@ bool IsWell(const VehicleStatus& status) {
   }
 }
 
-SoakWatch::SoakWatch(std::vector<VehicleId> fleet, std::span<const faults::Fault> schedule)
+SoakWatch::SoakWatch(const std::vector<VehicleId>& fleet, std::span<const faults::Fault> schedule)
     : schedule_(schedule), courses_(schedule.size()), before_(schedule.size()) {
   for (const VehicleId vehicle : fleet) views_[vehicle];
 }

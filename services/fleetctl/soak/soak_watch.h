@@ -27,7 +27,7 @@ class SoakWatch {
   static constexpr Nanoseconds kFresh = std::chrono::seconds(1);
 
   // `schedule` outlives this.
-  SoakWatch(std::vector<VehicleId> fleet, std::span<const faults::Fault> schedule);
+  SoakWatch(const std::vector<VehicleId>& fleet, std::span<const faults::Fault> schedule);
 
   void Fold(const link::Observed& observed, SteadyTime now);
   // A line of a vehicle's log.

@@ -164,7 +164,7 @@ void Tuning::MakeProfiles() {
 }
 
 std::size_t Tuning::PlannedTrials(const std::vector<Rung>& rungs) const {
-  std::size_t trials = 2 * options_.verify_trials;
+  std::size_t trials = std::size_t{2} * options_.verify_trials;
   std::uint32_t before = 0;
   for (const Rung& rung : rungs) {
     trials += std::size_t{rung.candidates} * (rung.trials - before);
