@@ -32,6 +32,7 @@ class Beaconing {
  public:
   Beaconing(const link::LinkOptions& options, VehicleId id);
   void Send() { link_.Send(BeaconFrom(id_, ++seq_)); }
+  std::uint32_t Seq() const { return seq_; }  // of the last one sent
   link::VehicleLink& Link() { return link_; }
 
  private:

@@ -76,21 +76,25 @@ TEST(Impaired, ByAFifthLostHearsFourFifths) {
   }));
   Repeat(milliseconds(100), [&] { listener.monitor.Listen(); });
   listener.monitor.Forget();
+  const std::uint32_t superseded_before = listener.link.Counters().beacons_superseded;
   for (std::uint32_t i = 0; i < kSent; ++i) {
     sender.Send();
     std::this_thread::sleep_for(milliseconds(2));
     listener.monitor.Listen();
   }
   Repeat(milliseconds(200), [&] { listener.monitor.Listen(); });
-  const double heard = static_cast<double>(listener.monitor.Beacons().size()) / kSent;
+  // On a busy machine some were received and overwritten before they were taken.
+  const std::uint32_t superseded = listener.link.Counters().beacons_superseded - superseded_before;
+  const double received =
+      static_cast<double>(listener.monitor.Beacons().size() + superseded) / kSent;
   // Five standard deviations, and 1 % for what the machine itself may lose.
-  EXPECT_NEAR(heard, 0.8, 5 * std::sqrt(0.2 * 0.8 / kSent) + 0.01);
+  EXPECT_NEAR(received, 0.8, 5 * std::sqrt(0.2 * 0.8 / kSent) + 0.01);
   const ImpairmentCounters counters = listener.Impaired();
   EXPECT_EQ(counters.packets, counters.passed + counters.dropped_loss);
   // A gap is reported once, however wide: of 2000 with a fifth lost there are some 2000 * 0.2 *
   // 0.8.
   const auto gaps = listener.monitor.EventsOf(QosEventKind::kSampleLost);
-  EXPECT_NEAR(static_cast<double>(gaps.size()), 320, 100);
+  EXPECT_NEAR(static_cast<double>(gaps.size()), 320, 100 + superseded);
   EXPECT_THAT(gaps, ::testing::Each(kThree));
 }
 

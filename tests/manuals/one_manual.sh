@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Runs commands of one manual in order, in the folder it is called in: one shell for all, so that what
 # one leaves in the background is there for the next. Reads lines "LINE <tab> EXIT CODE <tab> COMMAND".
-# Usage: one_manual.sh NAME <LINES; prints "ok" or "FAILED" for each.
+# Usage: one_manual.sh NAME <LINES; prints "ok" or "FAILED" for each, and after a failure what the command
+# printed, on lines that start with "| ".
 set -uo pipefail
 name=$1
 ip link set lo up 2>/dev/null || true
@@ -14,7 +15,8 @@ for line in "${lines[@]}"; do
   if [[ $code -eq $expected ]]; then
     echo "ok      $name:$at: $command"
   else
-    echo "FAILED  $name:$at: $command: exit code $code, not $expected: $(tail -n 3 said | tr '\n' ' ')"
+    echo "FAILED  $name:$at: $command: exit code $code, not $expected"
+    tail -n 40 said | sed 's/^/| /'
   fi
 done
 mapfile -t background < <(jobs -p)

@@ -17,7 +17,7 @@ constexpr auto kPoll = std::chrono::milliseconds(10);
 
 // Polls done() until it is true; false after `patience`, or after that many Ctrl-C.
 template <typename Done>
-bool WaitUntil(std::chrono::milliseconds patience, int interrupts, Done&& done) {
+bool WaitUntil(Nanoseconds patience, int interrupts, Done&& done) {
   const SteadyTime end = SteadyNow() + patience;
   while (!done()) {
     if (SteadyNow() >= end || Interrupts::Count() >= interrupts) return false;
@@ -29,15 +29,17 @@ bool WaitUntil(std::chrono::milliseconds patience, int interrupts, Done&& done) 
 }  // namespace
 
 std::vector<VehicleId> AdminClient::Seek(const std::vector<VehicleId>& vehicles,
-                                         std::chrono::milliseconds patience) {
+                                         const Settling::Patience& patience) {
   for (const VehicleId vehicle : vehicles) {
     if (sought_.insert(vehicle).second) link_.Seek(vehicle);
   }
   std::vector<VehicleId> missing = vehicles;
-  WaitUntil(patience, 1, [&] {
+  Settling search(patience, SteadyNow());
+  const auto done = [&] {
     std::erase_if(missing, [&](VehicleId vehicle) { return link_.Reaches(vehicle); });
-    return missing.empty();
-  });
+    return missing.empty() || search.Take(vehicles.size() - missing.size(), SteadyNow());
+  };
+  WaitUntil(patience.limit, 1, done);
   return missing;
 }
 

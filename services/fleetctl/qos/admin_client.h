@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "services/fleetctl/qos/settling.h"
 #include "services/link/operator_link.h"
 #include "services/runtime/refusal_log.h"
 #include "services/types/admin.h"
@@ -23,9 +24,12 @@ class AdminClient {
   AdminClient(const link::LinkOptions& options, const std::string& key)
       : link_(options, key), has_key_(!key.empty()) {}
 
-  // Waits until each is reached; returns those that are not within `patience`.
+  // Waits until each is reached, or `patience` ends; returns those that are not reached.
   std::vector<VehicleId> Seek(const std::vector<VehicleId>& vehicles,
-                              std::chrono::milliseconds patience);
+                              const Settling::Patience& patience);
+  std::vector<VehicleId> Seek(const std::vector<VehicleId>& vehicles, Nanoseconds limit) {
+    return Seek(vehicles, {.quiet = limit, .limit = limit, .at_least = vehicles.size()});
+  }
   std::vector<VehicleId> Announced() { return link_.Announced(); }
   // Sends it to a vehicle that is reached, and waits for the answer that it is in effect, or
   // refused. nullopt if none arrives within `patience`. Ctrl-C ends the wait; with `insist` only

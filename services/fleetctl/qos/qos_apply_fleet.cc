@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/qos/settling.h"
 #include "services/runtime/process.h"
 
 namespace giveway::fleetctl {
@@ -14,25 +15,32 @@ using std::chrono::seconds;
 
 constexpr auto kFindPatience = seconds(10);
 constexpr auto kReportPatience = seconds(5);
-constexpr auto kQuiet = milliseconds(1500);          // announcements come every second
-constexpr auto kQuietOfTheRest = milliseconds(400);  // heard since the targets were sought
 constexpr auto kAskTurn = milliseconds(20);
 
-// All vehicles, and the world if there is one, when no new one has appeared for `patience`;
-// `insist`: and there is at least one.
-std::vector<VehicleId> Everyone(AdminClient* client, milliseconds patience, bool insist,
-                                FleetAnswers* fleet) {
-  const SteadyTime end = SteadyNow() + kFindPatience;
-  SteadyTime quiet = SteadyNow() + patience;
-  std::vector<VehicleId> found;
-  while (SteadyNow() < end && SteadyNow() < quiet && Interrupts::Count() == 0) {
+// Vehicles announce themselves; then each, and the world, either takes orders or does not.
+struct Search {
+  Settling::Patience announced;
+  Settling::Patience reached;
+};
+// Announcements come every second. On a network that loses packets one process may be matched two
+// seconds after the others. Something must be found.
+constexpr Search kOfTargets{
+    .announced = {.quiet = milliseconds(1500), .limit = kFindPatience, .at_least = 1},
+    .reached = {.quiet = seconds(3), .limit = kFindPatience, .at_least = 1}};
+// These have been heard since the targets were sought.
+constexpr Search kOfTheRest{.announced = {.quiet = milliseconds(400), .limit = kFindPatience},
+                            .reached = {.quiet = milliseconds(400), .limit = kFindPatience}};
+
+// All vehicles that take orders, and the world if there is one.
+std::vector<VehicleId> Everyone(AdminClient* client, const Search& search, FleetAnswers* fleet) {
+  Settling announcements(search.announced, SteadyNow());
+  std::vector<VehicleId> found = client->Announced();
+  while (!announcements.Take(found.size(), SteadyNow()) && Interrupts::Count() == 0) {
     SleepUntil(SteadyNow() + kAskTurn);
-    std::vector<VehicleId> now = client->Announced();
-    if (now.size() != found.size() || (insist && now.empty())) quiet = SteadyNow() + patience;
-    found = std::move(now);
+    found = client->Announced();
   }
   found.push_back(kNoVehicle);
-  const std::vector<VehicleId> missing = client->Seek(found, patience);
+  const std::vector<VehicleId> missing = client->Seek(found, search.reached);
   const auto is_missing = [&](VehicleId process) {
     return std::ranges::find(missing, process) != missing.end();
   };
@@ -46,7 +54,7 @@ int FindTargets(const QosApplyOptions& options, AdminClient* client, FleetAnswer
   const VehicleId canary{options.canary};
   for (const std::uint32_t id : options.to) fleet->targets.push_back(VehicleId{id});
   if (options.all) {
-    fleet->targets = Everyone(client, kQuiet, true, fleet);
+    fleet->targets = Everyone(client, kOfTargets, fleet);
     if (fleet->targets.empty()) return ReportNoneReached(options.where.domain);
   }
   int code = 0;
@@ -72,7 +80,7 @@ int AskFleet(const QosApplyOptions& options, AdminClient* client, FleetAnswers* 
   }
   // A process that keeps its QoS must still receive the others. Those that do not answer are left
   // out.
-  for (const VehicleId process : Everyone(client, kQuietOfTheRest, false, fleet)) {
+  for (const VehicleId process : Everyone(client, kOfTheRest, fleet)) {
     if (fleet->answers.contains(process)) continue;
     auto answer = client->Send(QosReportRequest(process), kReportPatience);
     if (!answer) continue;
