@@ -5,6 +5,7 @@
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/../support/only_late.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/jq.sh"
 REPOSITORY=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 FLEETCTL=${GIVEWAY_BIN_DIR:-$REPOSITORY/build/release/bin}/fleetctl
 [[ -x $FLEETCTL ]] || {

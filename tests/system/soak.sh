@@ -46,6 +46,24 @@ refusals() {
   [[ $code -eq 2 ]] || fail "a folder that cannot be made: exit code $code"
 }
 
+# judged_soak NAME ARGUMENTS...: fleetctl soak ARGUMENTS, its report in $SCRATCH/NAME, its JSON and its log beside
+# it. Its exit code. One that judges nothing, since the machine paused for too large a part of the time, is made
+# again, twice at most.
+judged_soak() {
+  local name=$1 code try
+  shift
+  for try in 1 2 3; do
+    code=0
+    rm -rf "${SCRATCH:?}/$name"
+    "$FLEETCTL" soak "$@" --report "$SCRATCH/$name" --json >"$SCRATCH/$name.json" 2>"$SCRATCH/$name.log" || code=$?
+    [[ $code -eq 2 && $try -lt 3 ]] || break
+    too_busy "$SCRATCH/$name.json" || break
+    echo "made again: $name: the machine paused too long" >&2
+  done
+  return "$code"
+}
+too_busy() { jq -e '.reasons | index("machine_too_busy") != null' "$1" >/dev/null 2>&1; }
+
 # Every child of process $1 is gone, five seconds at most after it.
 all_gone() {
   local pid _
@@ -87,8 +105,7 @@ interrupted() {
 # for, and the latency of samples is measured.
 accounted() {
   local code=0 report=$SCRATCH/accounted
-  "$FLEETCTL" soak patrol --vehicles 3 --faults "$SCRATCH/lossy.textproto" --duration 50 --report "$report" \
-    --json >"$SCRATCH/accounted.json" 2>"$SCRATCH/accounted.log" || code=$?
+  judged_soak accounted patrol --vehicles 3 --faults "$SCRATCH/lossy.textproto" --duration 50 || code=$?
   [[ $code -eq 0 ]] ||
     fail "a lossy soak ended with $code: $(jq -c '[.verdict, .reasons, [.violations[]? | .words]]' "$SCRATCH/accounted.json")"
   jq -e '(.accounting | length) == 6 and ([.accounting[] | select(.difference != 0)] == []) and
@@ -175,8 +192,8 @@ virtually() {
 
 whole() {
   local code=0 report=$SCRATCH/whole
-  "$FLEETCTL" soak patrol --vehicles 8 --faults everything --skip-unsupported --duration "${GIVEWAY_SOAK:-90s}" \
-    --seed 7 --record --report "$report" --json >"$SCRATCH/whole.json" 2>"$SCRATCH/whole.log" || code=$?
+  judged_soak whole patrol --vehicles 8 --faults everything --skip-unsupported --duration "${GIVEWAY_SOAK:-90s}" \
+    --seed 7 --record || code=$?
   if [[ $code -ne 0 ]]; then
     fail "the soak ended with $code: $(jq -c '[.verdict, .reasons, [.violations[]? | .words]]' "$SCRATCH/whole.json")"
     tail -n 20 "$SCRATCH/whole.log"
@@ -203,8 +220,8 @@ host() {
   shm=/dev/shm/giveway-soak-test-$$
   echo kept >"$shm"
   before=$SECONDS
-  "$FLEETCTL" soak patrol --vehicles 4 --qos same_host --discovery-servers 2 --duration 45 --faults "$SCRATCH/host.textproto" \
-    --report "$SCRATCH/host" --json >"$SCRATCH/host.json" 2>"$SCRATCH/host.log" || code=$?
+  judged_soak host patrol --vehicles 4 --qos same_host --discovery-servers 2 --duration 45 \
+    --faults "$SCRATCH/host.textproto" || code=$?
   [[ $code -eq 0 ]] || {
     fail "a soak of the host's faults ended with $code: $(jq -c '[.verdict, .reasons]' "$SCRATCH/host.json")"
     tail -n 20 "$SCRATCH/host.log"
@@ -221,8 +238,8 @@ host() {
 intruded() {
   local code=0 attacker=${FLEETCTL%/*}/attacker
   [[ $(id -u) -eq 0 && -x $attacker ]] || return 0 # its packet socket needs root
-  "$FLEETCTL" soak patrol --vehicles 4 --faults "$SCRATCH/intruder.textproto" --duration 42 --attacker "$attacker" \
-    --report "$SCRATCH/intruded" --json >"$SCRATCH/intruded.json" 2>"$SCRATCH/intruded.log" || code=$?
+  judged_soak intruded patrol --vehicles 4 --faults "$SCRATCH/intruder.textproto" --duration 42 \
+    --attacker "$attacker" || code=$?
   [[ $code -eq 0 ]] || {
     fail "a soak with an intruder ended with $code: $(jq -c '[.verdict, .reasons]' "$SCRATCH/intruded.json")"
     tail -n 20 "$SCRATCH/intruded.log"
