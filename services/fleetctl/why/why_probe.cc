@@ -136,7 +136,9 @@ class Probing {
       const auto found = result_.topics.find(topic.topic);
       return found != result_.topics.end() && found->second.samples > 0;
     });
-    return all && (ReceiverReportFits() || seconds >= kReceiverReportSeconds);
+    // Of a hearer elsewhere discovery is all there is to judge by.
+    const bool enough = order_.hearer_here && seconds >= kReceiverReportSeconds;
+    return all && (ReceiverReportFits() || enough);
   }
   // Whether discovery has reported the readers of a hearer that does not answer.
   bool HasFits() const {
