@@ -31,6 +31,8 @@ namespace {
 using std::chrono::seconds;
 
 constexpr auto kApplyPatience = seconds(20);  // a restart takes about one, on a busy machine more
+constexpr auto kAskPatience = seconds(5);
+constexpr int kMostGiven = 2;
 constexpr auto kHearPatience = seconds(10);
 constexpr auto kQuietOfOthers =
     std::chrono::milliseconds(400);  // heard since the targets were sought
@@ -86,6 +88,7 @@ class Applying {
   void CheckAsOrder();
   void CheckAsIs();
   void Plan();
+  std::optional<AdminAnswer> Order(VehicleId process, const QosProfiles& profiles, bool insist);
   bool ApplyTo(AppliedTo* applied, const QosProfiles& profiles, bool between);
   std::optional<ApplyVerdict> Take(const qos::RolloutStep& step);
   std::optional<ApplyVerdict> Try(AppliedTo* canary);
@@ -211,10 +214,24 @@ void Hold(const AdminAnswer& answer, AppliedTo* applied) {
   }
 }
 
+// The answer that it is in effect, or refused; none of a process that does not answer at all. An
+// order or its answer may be lost with a participant that ends, or is new: then what the process
+// reports to run with says which, and the order is given again if need be.
+std::optional<AdminAnswer> Applying::Order(VehicleId process, const QosProfiles& profiles,
+                                           bool insist) {
+  for (int given = 0; given < kMostGiven; ++given) {
+    auto answer = client_.Send(ApplyRequest(process, profiles), kApplyPatience, insist);
+    if (answer) return answer;
+    auto report = client_.Send(QosReportRequest(process), kAskPatience, insist);
+    if (!report || report->profiles.text == profiles.text) return report;
+  }
+  return std::nullopt;
+}
+
 bool Applying::ApplyTo(AppliedTo* applied, const QosProfiles& profiles, bool between) {
   const SteadyTime begun = SteadyNow();
   AdminAnswer& current = answers_.at(applied->vehicle);
-  const auto answer = client_.Send(ApplyRequest(applied->vehicle, profiles), kApplyPatience);
+  const auto answer = Order(applied->vehicle, profiles, false);
   applied->seconds = Seconds(SteadyNow() - begun);
   applied->answered = answer.has_value();
   applied->in_effect = answer && answer->state == AnswerState::kInEffect;
@@ -232,8 +249,7 @@ bool Applying::RollBack() {
   bool all = true;
   for (; !undo_.empty(); undo_.pop_back()) {
     const Undo& undo = undo_.back();
-    const auto answer =
-        client_.Send(ApplyRequest(undo.process, undo.profiles), kApplyPatience, true);
+    const auto answer = Order(undo.process, undo.profiles, true);
     all = answer && answer->state == AnswerState::kInEffect && all;
   }
   return all;

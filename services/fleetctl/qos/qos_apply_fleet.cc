@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/qos/settling.h"
@@ -50,22 +51,30 @@ std::vector<VehicleId> Everyone(AdminClient* client, const Search& search, Fleet
   return found;
 }
 
+// 0, or the exit code after a message.
 int FindTargets(const QosApplyOptions& options, AdminClient* client, FleetAnswers* fleet) {
-  const VehicleId canary{options.canary};
-  for (const std::uint32_t id : options.to) fleet->targets.push_back(VehicleId{id});
-  if (options.all) {
-    fleet->targets = Everyone(client, kOfTargets, fleet);
-    if (fleet->targets.empty()) return ReportNoneReached(options.where.domain);
-  }
+  if (options.all) fleet->targets = Everyone(client, kOfTargets, fleet);
+  if (options.all && fleet->targets.empty()) return ReportNoneReached(options.where.domain);
+  std::vector<VehicleId> named;
+  for (const std::uint32_t id : options.to) named.push_back(VehicleId{id});
+  if (options.all && options.canary != 0) named.push_back(VehicleId{options.canary});
   int code = 0;
-  for (const VehicleId vehicle : client->Seek(fleet->targets, kFindPatience)) {
+  for (const VehicleId vehicle : client->Seek(named, kFindPatience)) {
     code = ReportNotReached(vehicle, options.where.domain);
   }
+  for (const VehicleId vehicle : named) {
+    const auto known = std::ranges::find(fleet->targets, vehicle);
+    if (known == fleet->targets.end()) fleet->targets.push_back(vehicle);
+  }
   if (code != 0 || options.canary == 0) return code;
-  const auto first = std::ranges::find(fleet->targets, canary);
-  if (first == fleet->targets.end()) return ReportNotReached(canary, options.where.domain);
+  const auto first = std::ranges::find(fleet->targets, VehicleId{options.canary});
   std::rotate(fleet->targets.begin(), first, first + 1);
   return 0;
+}
+
+// nullopt if it gives no answer.
+std::optional<AdminAnswer> Ask(VehicleId process, AdminClient* client) {
+  return client->Send(QosReportRequest(process), kReportPatience);
 }
 
 }  // namespace
@@ -73,22 +82,23 @@ int FindTargets(const QosApplyOptions& options, AdminClient* client, FleetAnswer
 int AskFleet(const QosApplyOptions& options, AdminClient* client, FleetAnswers* fleet) {
   if (const int code = FindTargets(options, client, fleet); code != 0) return code;
   for (const VehicleId process : fleet->targets) {
-    auto answer = client->Send(QosReportRequest(process), kReportPatience);
+    auto answer = Ask(process, client);
     if (!answer) return ReportNoAnswer(process);
     if (answer->state == AnswerState::kRefused) return ReportRefused(*answer);
     fleet->answers.emplace(process, std::move(*answer));
   }
   // A process that keeps its QoS must still receive the others. Those that do not answer are left
-  // out.
+  // out. One that the first search missed is a target like all others.
   for (const VehicleId process : Everyone(client, kOfTheRest, fleet)) {
     if (fleet->answers.contains(process)) continue;
-    auto answer = client->Send(QosReportRequest(process), kReportPatience);
+    auto answer = Ask(process, client);
     if (!answer) continue;
     if (answer->state == AnswerState::kRefused) {
       fleet->not_administrable.push_back(process);
-    } else {
-      fleet->answers.emplace(process, std::move(*answer));
+      continue;
     }
+    fleet->answers.emplace(process, std::move(*answer));
+    if (options.all) fleet->targets.push_back(process);
   }
   return 0;
 }
