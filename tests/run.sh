@@ -12,13 +12,13 @@ QUICK_STAGES=(format rules unit golden link crossing virtual)
 FIRST_STAGES=(unit golden images)
 THEN_STAGES=(link system attack manuals web containers)
 LAST_STAGES=(timed tsan debian13)
-BACKGROUND_STAGES=(format rules deploy tsan_build virtual planted model clang tidy_tenth)
+BACKGROUND_STAGES=(format rules deploy tsan_build virtual defects model clang tidy_tenth)
 BACKGROUND_IMAGES_STAGES=(asan13)
 
 # Seconds each stage may take on two quiet cores with warm caches. A target, not a failure: machines are
 # shared.
 declare -A BUDGET=([format]=20 [rules]=60 [tidy]=120 [tidy_tenth]=60 [clang]=120 [deploy]=60 [unit]=60 [golden]=30 [link]=120 [crossing]=30
-  [virtual]=150 [planted]=90 [model]=240 [system]=420 [timed]=240 [attack]=120 [manuals]=120 [web]=180 [tsan_build]=30 [tsan]=120
+  [virtual]=150 [defects]=90 [model]=240 [system]=420 [timed]=240 [attack]=120 [manuals]=120 [web]=180 [tsan_build]=30 [tsan]=120
   [images]=60 [asan13]=180 [debian13]=330 [containers]=360 [asan]=180 [asan_link]=120 [fuzz]=120 [dev]=60)
 
 usage() {
@@ -41,7 +41,7 @@ runs in the background, at idle priority. Stages:
   golden   hashes that must never change
   crossing one crossing of two real vehicles
   virtual  fleets of 2-50 in virtual time, 200 seeds a generator, judged by invariants
-  planted  defects injected into the rules are detected by the invariants
+  defects  defects injected into the rules are detected by the invariants
   model    SPIN: the right of way of two and three vehicles, exhaustively
   link     Fast DDS between participants of one process
   system   real processes: crossings, kills, bad input
@@ -330,8 +330,8 @@ stage_virtual() {
   done
   check "mixed fleets are drawn and judged" bash tests/virtual/table.sh 1 swarm parking
 }
-stage_planted() {
-  prepare release fleetctl fleetctl_planted && check_lines bash tests/virtual/defects.sh
+stage_defects() {
+  prepare release fleetctl fleetctl_with_defects && check_lines bash tests/virtual/defects.sh
   $full || return 0
   prepare release fleetctl_mutants
   check "defects chosen at random are detected" bash tests/virtual/mutants.sh --least 14

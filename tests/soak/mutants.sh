@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A soak that cannot fail proves nothing. One vehicle of the fleet has a defect (planted_vehicle.cc), or one
+# A soak that cannot fail proves nothing. One vehicle of the fleet has a defect (vehicle_with_defects.cc), or one
 # fault silently has no effect, and the soak must name it. A line "ok" or "FAILED" each.
 # Exit code 0: all were found; 1: one was not; 2: could not run.
 # Usage: mutants.sh [MUTANT ...]
@@ -7,8 +7,8 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
 BIN=$(dirname "$FLEETCTL")
 export GIVEWAY_CONFIG_DIR=${GIVEWAY_CONFIG_DIR:-$REPOSITORY/config}
-[[ -x $BIN/planted_vehicle ]] || {
-  echo "no $BIN/planted_vehicle; build the target planted_vehicle" >&2
+[[ -x $BIN/vehicle_with_defects ]] || {
+  echo "no $BIN/vehicle_with_defects; build the target vehicle_with_defects" >&2
   exit 2
 }
 
@@ -48,7 +48,7 @@ while [[ \$# -gt 0 ]]; do
   if [[ \$1 == --qos && -n "$deadline" ]]; then words+=(--qos "$deadline") && shift 2; continue; fi
   words+=("\$1") && shift
 done
-GIVEWAY_DEFECT=$defect exec $BIN/planted_vehicle "\${words[@]}"
+GIVEWAY_DEFECT=$defect exec $BIN/vehicle_with_defects "\${words[@]}"
 END
   chmod +x "$folder/giveway-vehicle"
   echo "$folder"

@@ -19,7 +19,7 @@ declare -A taken_away=(
   [agreement]="claim_ignored,obstacle_ignored"
   [claims]="second_drives_on,through_first_guessed"
 )
-for program in fleetctl fleetctl_planted; do
+for program in fleetctl fleetctl_with_defects; do
   [[ -x $bin/$program ]] || { echo "defects.sh: $bin/$program is not built" >&2 && exit 2; }
 done
 
@@ -47,7 +47,7 @@ broken() { jq -r '[.violations | to_entries[] | select(.value > 0).key + " "] | 
 sound() {
   local base=$1 injected product
   shift
-  injected=$(GIVEWAY_DEFECT=${taken_away[$base]} outcome fleetctl_planted "$@")
+  injected=$(GIVEWAY_DEFECT=${taken_away[$base]} outcome fleetctl_with_defects "$@")
   product=$injected
   [[ $base != all ]] || product=$(outcome fleetctl "$@")
   if jq -e -n --argjson a "${injected:-0}" --argjson b "${product:-1}" \
@@ -62,7 +62,7 @@ sound() {
 detected() {
   local defect=$1 base=$2 expected=$3 names invariant is_detected=false
   shift 3
-  names=$(GIVEWAY_DEFECT=$defect,${taken_away[$base]} outcome fleetctl_planted "$@" | broken)
+  names=$(GIVEWAY_DEFECT=$defect,${taken_away[$base]} outcome fleetctl_with_defects "$@" | broken)
   for invariant in ${expected//,/ }; do
     [[ " $names" != *" $invariant "* ]] || is_detected=true
   done

@@ -55,9 +55,9 @@ TEST(ResourcesOverTime, NameWhoLeaksAndNobodyElse) {
   }
   const std::vector<ResourceSlope> slopes = series.Slopes();
   for (const ResourceSlope& row : slopes) {
-    const bool planted = (row.process == "vehicle-1" && row.kind == ResourceKind::kPrivateBytes) ||
+    const bool leaking = (row.process == "vehicle-1" && row.kind == ResourceKind::kPrivateBytes) ||
                          (row.process == "vehicle-2" && row.kind == ResourceKind::kDescriptors);
-    EXPECT_EQ(row.leak, planted) << row.process << ' ' << ToString(row.kind);
+    EXPECT_EQ(row.leak, leaking) << row.process << ' ' << ToString(row.kind);
   }
   const ResourceSlope* leak = Find(slopes, "vehicle-1", 0, ResourceKind::kPrivateBytes);
   ASSERT_NE(leak, nullptr);

@@ -13,11 +13,11 @@ int main(int argc, char** argv) {
   std::istringstream defects(names == nullptr ? "" : names);
   for (std::string name; std::getline(defects, name, ',');) {
     if (giveway::ActivateNamedMutant(name)) continue;
-    std::fprintf(stderr, "fleetctl_planted: GIVEWAY_DEFECT: no defect is called '%s'\n",
+    std::fprintf(stderr, "fleetctl_with_defects: GIVEWAY_DEFECT: no defect is called '%s'\n",
                  name.c_str());
     return kWrongArguments;
   }
-  CLI::App fleetctl("Runs fleets of defective vehicles.", "fleetctl_planted");
+  CLI::App fleetctl("Runs fleets of defective vehicles.", "fleetctl_with_defects");
   fleetctl.require_subcommand(1);
   int exit_code = kWrongArguments;
   giveway::fleetctl::AddVirtualVerb(&fleetctl, &exit_code);

@@ -1,4 +1,4 @@
-// The defects of `planted_vehicle`, a giveway-vehicle for tests of what a soak finds:
+// The defects of `vehicle_with_defects`, a giveway-vehicle for tests of what a soak finds:
 // GIVEWAY_DEFECT names a defect of the brain (tests/support/mutant_names.h), or leak, descriptor
 // or slow_loop. Empty or unset: no defect, and the vehicle behaves like the product's. Linked
 // before its libraries.
