@@ -130,8 +130,9 @@ end_listening() {
 }
 
 # places NAME: for each life of the vehicle in each world, in order of time, as one list: the number of
-# beacons that could be compared, how far the worst was beyond 3 sigma of its own covariance, and the first
-# and last destination, in millimetres.
+# beacons that could be compared, how far the worst was beyond 3 sigma of its own covariance, the first
+# and last destination, in millimetres, how far it was to that when last heard, and whether this life
+# continues the one before: to the same destination, or to another where that was reached meanwhile.
 places() {
   jq -n --slurpfile said "$SCRATCH/$1.beacon" --slurpfile is "$SCRATCH/$1.truth" '
     def at: "\(.world_epoch):\(.tick)";
@@ -139,11 +140,14 @@ places() {
     [$said[] | select($true[at]) | $true[at] as $place |
       {life: "\(.world_epoch):\(.boot_epoch)", heard_s,
        toward: ([.toward_x_m, .toward_y_m] | map(. * 1000 | round)),
+       left_m: ([.toward_x_m - $place.x_m, .toward_y_m - $place.y_m] | map(. * .) | add | sqrt),
        beyond_m: (([.world_from_body.x_m - $place.x_m, .world_from_body.y_m - $place.y_m] |
            map(. * .) | add | sqrt) - 3 * ([.covariance.xx_m2, .covariance.yy_m2] | max | sqrt))}] |
     group_by(.life) | sort_by(.[0].heard_s) |
     map({beacons: length, beyond_m: (map(.beyond_m) | max), first_toward: .[0].toward,
-         last_toward: .[-1].toward})'
+         last_toward: .[-1].toward, left_m: .[-1].left_m}) |
+    . as $lives | [range(length) | $lives[.] + {continues: (. == 0 or
+      $lives[. - 1].last_toward == $lives[.].first_toward or $lives[. - 1].left_m < 1)}]'
 }
 
 # await_places NAME LIVES COUNT: until it has had so many lives, and so many beacons of the last can be

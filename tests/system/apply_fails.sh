@@ -87,7 +87,7 @@ await_places 1 3 10
 
 end_listening
 places 1 | jq -e 'length >= 3 and all(.[]; .beyond_m < 0.1) and
-  ([range(1; length) as $i | .[$i - 1].last_toward == .[$i].first_toward] | all)' >/dev/null ||
+  all(.[]; .continues)' >/dev/null ||
   fail "where vehicle 1 took itself to be: $(places 1 | tr -d '\n ')"
 no_contact
 [[ $failures -eq 0 ]]

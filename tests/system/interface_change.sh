@@ -113,7 +113,7 @@ for vehicle in a b; do await_places "$vehicle" 2 10; done
 end_listening
 for vehicle in a b; do
   places "$vehicle" | jq -e 'length == 2 and all(.[]; .beacons > 5 and .beyond_m < 0.1) and
-    .[1].first_toward == .[0].last_toward' >/dev/null ||
+    .[1].continues' >/dev/null ||
     fail "where $vehicle took itself to be: $(places "$vehicle" | tr -d '\n ')"
 done
 alive world || fail "the world is gone: $(tail -n 3 "$SCRATCH/world.log")"

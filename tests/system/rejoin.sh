@@ -62,7 +62,7 @@ done
 # The new process knows where the body was left, and drives on, not back.
 end_listening
 places b | jq -e 'length == 2 and all(.[]; .beacons > 5 and .beyond_m < 0.1) and
-  .[1].first_toward == .[0].last_toward' >/dev/null ||
+  .[1].continues' >/dev/null ||
   fail "where vehicle $id took itself to be: $(places b | tr -d '\n ')"
 no_contact
 [[ $failures -eq 0 ]]
