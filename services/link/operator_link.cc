@@ -18,6 +18,14 @@ namespace giveway::link {
 namespace {
 
 constexpr std::size_t kMostRefusals = 4;  // kept for the log; the counter has all
+constexpr std::size_t kMostHeld = 16;     // answers; the oldest are dropped
+
+// An answer of a participant that may not speak for the vehicle, or not yet: of a process that
+// restarted it comes before the former participant is known to be gone.
+struct HeldAnswer {
+  AdminAnswer answer;
+  rtps::GUID_t writer;
+};
 
 }  // namespace
 
@@ -51,6 +59,16 @@ struct OperatorLink::Impl {
     return entry != nullptr && entry->vehicle == answer.vehicle &&
            names.Owns(entry->vehicle, writer);
   }
+  void Hold(const AdminAnswer& answer, const rtps::GUID_t& writer) {
+    if (held.size() == kMostHeld) held.erase(held.begin());
+    held.push_back({answer, writer});
+  }
+  // Whether it counts; if not, it is refused.
+  bool Accepts(AdminAnswer* answer, const rtps::GUID_t& writer) {
+    if (IsBelieved(answer)) return true;
+    Refuse(*answer, writer, "seal", "it is not sealed with the key of this fleet");
+    return false;
+  }
   Writer<wire::Order>& To(VehicleId vehicle) {
     const auto found = writers.find(vehicle);
     GIVEWAY_CHECK(found != writers.end(), Number(vehicle));
@@ -63,6 +81,7 @@ struct OperatorLink::Impl {
   Participant participant;
   Reader<wire::Answer> answers;
   std::map<VehicleId, Writer<wire::Order>> writers;
+  std::vector<HeldAnswer> held;
   std::vector<Refusal> refusals;
   std::uint32_t refused = 0;  // by this side; the filter has its own
 };
@@ -109,15 +128,21 @@ std::uint64_t OperatorLink::NextNumber() {
 std::vector<AdminAnswer> OperatorLink::Take() {
   impl_->names.Writers().Update();
   std::vector<AdminAnswer> taken;
+  for (HeldAnswer& held : std::exchange(impl_->held, {})) {
+    if (!impl_->MaySpeak(held.answer, held.writer)) {
+      impl_->Hold(held.answer, held.writer);
+    } else if (impl_->Accepts(&held.answer, held.writer)) {
+      taken.push_back(std::move(held.answer));
+    }
+  }
   impl_->answers.TakeEach([&](const wire::Answer& sample, const dds::SampleInfo& info) {
     const rtps::GUID_t& writer = info.sample_identity.writer_guid();
     AdminAnswer answer;
     if (!FromWire(sample, answer)) return;
     if (!impl_->MaySpeak(answer, writer)) {
       impl_->Refuse(answer, writer, "writer", "another participant speaks for this id");
-    } else if (!impl_->IsBelieved(&answer)) {
-      impl_->Refuse(answer, writer, "seal", "it is not sealed with the key of this fleet");
-    } else {
+      impl_->Hold(answer, writer);
+    } else if (impl_->Accepts(&answer, writer)) {
       taken.push_back(std::move(answer));
     }
   });

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <string_view>
 
 namespace giveway {
 namespace {
@@ -23,7 +24,8 @@ std::string Describe(const FieldFault& fault) {
 }
 
 std::string Describe(const Refusal& refusal) {
-  std::string text = std::string("refuses a ") + refusal.sample;
+  const bool is_vowel = std::string_view("aeiou").find(refusal.sample[0]) != std::string_view::npos;
+  std::string text = std::string(is_vowel ? "refuses an " : "refuses a ") + refusal.sample;
   if (refusal.vehicle != kNoVehicle)
     text += " of vehicle " + std::to_string(Number(refusal.vehicle));
   return text + ": " + refusal.why + " (" + refusal.counter + ')';

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -194,6 +195,29 @@ TEST_F(Strangers, DoNotAnswerForAVehicle) {
     return !got.empty();
   }));
   EXPECT_EQ(got[0].order, 2U);
+}
+
+// A process that restarted answers before its former participant is known to be gone.
+TEST_F(Strangers, OfWhomTheFirstLeavesAreHeardAlsoWithWhatTheySaidBefore) {
+  link::OperatorLink chief(OptionsIn(domain_));
+  auto former = std::make_unique<link::VehicleLink>(OptionsIn(domain_));
+  former->Open(VehicleId{8});
+  ASSERT_TRUE(Eventually([&] { return std::ranges::count(chief.Announced(), VehicleId{8}) == 1; }));
+  link::VehicleLink restarted(OptionsIn(domain_));
+  restarted.Open(VehicleId{8});
+  restarted.SendAnswer(
+      {.vehicle = VehicleId{8}, .order = 5, .interface = "", .profiles = {"x", "x"}});
+  ASSERT_TRUE(Eventually([&] {
+    EXPECT_TRUE(chief.Take().empty());
+    return chief.Refused() == 1;
+  }));
+  former.reset();
+  std::vector<AdminAnswer> got;
+  ASSERT_TRUE(Eventually([&] {
+    got = chief.Take();
+    return !got.empty();
+  }));
+  EXPECT_EQ(got[0].order, 5U);
 }
 
 TEST_F(Strangers, ThatOrderInTheNamesOfManyAreCounted) {

@@ -30,6 +30,11 @@ TEST(RefusalLog, SaysEachFaultOfAWriterOnce) {
   EXPECT_TRUE(log.Note(RefusalOf(2, "cruise_m_s"), seconds(200)));
 }
 
+TEST(RefusalLog, NamesWhatIsRefusedInEnglish) {
+  EXPECT_THAT(Describe(Refusal{.sample = "answer", .why = "x"}), StartsWith("refuses an answer: "));
+  EXPECT_THAT(Describe(Refusal{.sample = "beacon", .why = "x"}), StartsWith("refuses a beacon: "));
+}
+
 TEST(RefusalLog, DoesNotSpeakOfWhatPasses) {
   RefusalLog log;
   Refusal refusal = RefusalOf(1, "world_epoch");
