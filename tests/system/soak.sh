@@ -49,7 +49,7 @@ refusals() {
 # judged_soak NAME ARGUMENTS...: fleetctl soak ARGUMENTS, its report in $SCRATCH/NAME, its JSON and its log beside
 # it. Its exit code. One that judges nothing, since the machine paused for too large a part of the time, is made
 # again, twice at most; so is one whose process was ended by its watchdog (70): a disk that stalls for three
-# seconds, as beside compilers, stops a loop that writes.
+# seconds, as next to compilers, stops a loop that writes.
 judged_soak() {
   local name=$1 code try
   shift
