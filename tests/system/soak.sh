@@ -46,7 +46,7 @@ refusals() {
   [[ $code -eq 2 ]] || fail "a folder that cannot be made: exit code $code"
 }
 
-# judged_soak NAME ARGUMENTS...: fleetctl soak ARGUMENTS, its report in $SCRATCH/NAME, its JSON and its log beside
+# judged_soak NAME ARGUMENTS...: fleetctl soak ARGUMENTS, its report in $SCRATCH/NAME, its JSON and its log next to
 # it. Its exit code. One that judges nothing, since the machine paused for too large a part of the time, is made
 # again, twice at most; so is one whose process was ended by its watchdog (70): a disk that stalls for three
 # seconds, as next to compilers, stops a loop that writes.

@@ -57,6 +57,12 @@ std::optional<AdminAnswer> AdminClient::Send(AdminRequest order, std::chrono::mi
   return answer.Get();
 }
 
+std::optional<AdminAnswer> AdminClient::AskQos(VehicleId process,
+                                               std::chrono::milliseconds patience, bool insist) {
+  return Send({.vehicle = process, .kind = AdminRequestKind::kReportQos, .profiles = {}}, patience,
+              insist);
+}
+
 void AdminClient::ReportRefusals() {
   for (const Refusal& refusal : link_.TakeRefusals()) {
     const auto line = refusal_log_.Note(refusal, SteadyNow());
@@ -101,8 +107,6 @@ int ReportNoneReached(std::uint32_t domain) {
                domain);
   return interrupted ? 1 : kCouldNotRun;
 }
-
-AdminRequest QosReportRequest(VehicleId vehicle) { return {.vehicle = vehicle, .profiles = {}}; }
 
 AdminRequest ApplyRequest(VehicleId vehicle, const QosProfiles& profiles) {
   return {.vehicle = vehicle, .kind = AdminRequestKind::kApply, .profiles = profiles};

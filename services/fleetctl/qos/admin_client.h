@@ -36,6 +36,9 @@ class AdminClient {
   // the second one does.
   std::optional<AdminAnswer> Send(AdminRequest order, std::chrono::milliseconds patience,
                                   bool insist = false);
+  // What the process runs with, or its refusal to say so; nullopt as above.
+  std::optional<AdminAnswer> AskQos(VehicleId process, std::chrono::milliseconds patience,
+                                    bool insist = false);
 
  private:
   // Reports on stderr the answers that are not accepted, once per writer.
@@ -55,8 +58,6 @@ int ReportNoAnswer(VehicleId vehicle);
 int ReportRefused(const AdminAnswer& answer);
 int ReportNoneReached(std::uint32_t domain);
 
-// The request of kind kReportQos: the answer has the profiles that the vehicle runs with.
-AdminRequest QosReportRequest(VehicleId vehicle);
 AdminRequest ApplyRequest(VehicleId vehicle, const QosProfiles& profiles);
 
 }  // namespace giveway::fleetctl

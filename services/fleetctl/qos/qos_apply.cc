@@ -32,10 +32,8 @@ using std::chrono::seconds;
 
 constexpr auto kApplyPatience = seconds(20);  // a restart takes about one, on a busy machine more
 constexpr auto kAskPatience = seconds(5);
-constexpr int kMostGiven = 2;
+constexpr int kMostGiven = 2;  // times that one order is given
 constexpr auto kHearPatience = seconds(10);
-constexpr auto kQuietOfOthers =
-    std::chrono::milliseconds(400);  // heard since the targets were sought
 
 [[noreturn]] void Refuse(const std::string& file, const std::string& what,
                          const std::string& remedy) {
@@ -222,7 +220,7 @@ std::optional<AdminAnswer> Applying::Order(VehicleId process, const QosProfiles&
   for (int given = 0; given < kMostGiven; ++given) {
     auto answer = client_.Send(ApplyRequest(process, profiles), kApplyPatience, insist);
     if (answer) return answer;
-    auto report = client_.Send(QosReportRequest(process), kAskPatience, insist);
+    auto report = client_.AskQos(process, kAskPatience, insist);
     if (!report || report->profiles.text == profiles.text) return report;
   }
   return std::nullopt;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <optional>
 
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/qos/settling.h"
@@ -72,17 +71,12 @@ int FindTargets(const QosApplyOptions& options, AdminClient* client, FleetAnswer
   return 0;
 }
 
-// nullopt if it gives no answer.
-std::optional<AdminAnswer> Ask(VehicleId process, AdminClient* client) {
-  return client->Send(QosReportRequest(process), kReportPatience);
-}
-
 }  // namespace
 
 int AskFleet(const QosApplyOptions& options, AdminClient* client, FleetAnswers* fleet) {
   if (const int code = FindTargets(options, client, fleet); code != 0) return code;
   for (const VehicleId process : fleet->targets) {
-    auto answer = Ask(process, client);
+    auto answer = client->AskQos(process, kReportPatience);
     if (!answer) return ReportNoAnswer(process);
     if (answer->state == AnswerState::kRefused) return ReportRefused(*answer);
     fleet->answers.emplace(process, std::move(*answer));
@@ -91,7 +85,7 @@ int AskFleet(const QosApplyOptions& options, AdminClient* client, FleetAnswers* 
   // out. One that the first search missed is a target like all others.
   for (const VehicleId process : Everyone(client, kOfTheRest, fleet)) {
     if (fleet->answers.contains(process)) continue;
-    auto answer = Ask(process, client);
+    auto answer = client->AskQos(process, kReportPatience);
     if (!answer) continue;
     if (answer->state == AnswerState::kRefused) {
       fleet->not_administrable.push_back(process);

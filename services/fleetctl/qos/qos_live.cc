@@ -89,7 +89,7 @@ std::optional<LiveQos> LiveQosOf(const QosLiveOptions& options, const std::strin
     *exit_code = ReportNotReached(vehicle, options.domain);
     return std::nullopt;
   }
-  const auto answer = client.Send(QosReportRequest(vehicle), kAnswerPatience);
+  const auto answer = client.AskQos(vehicle, kAnswerPatience);
   if (!answer) {
     *exit_code = ReportNoAnswer(vehicle);
     return std::nullopt;
