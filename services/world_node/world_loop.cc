@@ -52,6 +52,8 @@ WorldLoop::WorldLoop(const Scenario& scenario, link::WorldLink* link, ServiceAdm
   if (options_.checkpoint_file.empty()) return;
   const std::string complaint = WriteStateFile(options_.checkpoint_file, State());
   if (!complaint.empty()) throw std::runtime_error("--checkpoint " + complaint);
+  checkpoint_writer_ = std::make_unique<StateWriter>(
+      [this](const std::string& bytes) { return WriteStateFile(options_.checkpoint_file, bytes); });
 }
 
 void WorldLoop::Resume(const sim::FleetCheckpoint& checkpoint) {
@@ -313,13 +315,21 @@ bool WorldLoop::Unanswered() const {
 // After the tick's scans are out: the vehicles compute meanwhile. At once where a vehicle joined or
 // left.
 void WorldLoop::KeepCheckpoint() {
-  const SteadyTime begun = SteadyNow();
-  if (options_.checkpoint_file.empty() || begun < next_checkpoint_) return;
-  next_checkpoint_ = begun + kCheckpointPeriod;
-  const std::string complaint = WriteStateFile(options_.checkpoint_file, State());
-  const std::string line = checkpoint_fault_.Note(complaint, begun);
+  if (!checkpoint_writer_) return;
+  NoteCheckpoint();
+  const SteadyTime now = SteadyNow();
+  if (now < next_checkpoint_) return;
+  next_checkpoint_ = now + kCheckpointPeriod;
+  checkpoint_writer_->Write(State());
+}
+
+// What became of the last one.
+void WorldLoop::NoteCheckpoint() {
+  const auto outcome = checkpoint_writer_->TakeOutcome();
+  if (!outcome) return;
+  const std::string line = checkpoint_fault_.Note(outcome->complaint, SteadyNow());
   if (!line.empty()) LogWarning("checkpoint " + line);
-  longest_checkpoint_ = std::max(longest_checkpoint_, SteadyNow() - begun);
+  longest_checkpoint_ = std::max(longest_checkpoint_, outcome->took);
 }
 
 bool WorldLoop::AnnounceEnd(Nanoseconds patience) {
@@ -334,7 +344,9 @@ bool WorldLoop::AnnounceEnd(Nanoseconds patience) {
   const std::string& reason = fleet_->run.EndReason();
   for (const RosterEntry& entry : fleet_->admission.InformAll(reason)) link_.SendRoster(entry);
   link_.Flush(patience);
-  if (!options_.checkpoint_file.empty()) {
+  if (checkpoint_writer_) {
+    checkpoint_writer_->Finish();
+    NoteCheckpoint();
     RemoveStateFile(options_.checkpoint_file);  // what has ended does not resume
     LogInfo("the longest checkpoint took " + std::to_string(Milliseconds(longest_checkpoint_)) +
             " ms");

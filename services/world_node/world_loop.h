@@ -17,6 +17,7 @@
 #include "services/runtime/packet_log.h"
 #include "services/runtime/process.h"
 #include "services/runtime/refusal_log.h"
+#include "services/runtime/state_writer.h"
 #include "services/types/parallel.h"
 #include "sim_world/faults/world_faults.h"
 #include "sim_world/run/admission.h"
@@ -85,6 +86,7 @@ class WorldLoop {
   void AwaitAnswers();
   bool Unanswered() const;
   void KeepCheckpoint();
+  void NoteCheckpoint();
   bool AnnounceEnd(Nanoseconds patience);
   void ReportHealth(HealthStage stage);
   void ReportIfAlone();
@@ -112,6 +114,7 @@ class WorldLoop {
   LineBudget answer_lines_{8};  // of admission
   LineBudget event_lines_{16};  // of the run
   std::uint32_t overruns_ = 0;
+  std::unique_ptr<StateWriter> checkpoint_writer_;  // null: none is kept
   SteadyTime next_checkpoint_{0};
   FaultReminder checkpoint_fault_;  // a full disk is no news at every tick
   Nanoseconds longest_checkpoint_{0};

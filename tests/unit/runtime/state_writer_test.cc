@@ -1,0 +1,82 @@
+// The writer of a process's state, with a disk that stalls until the test lets it go on.
+#include "services/runtime/state_writer.h"
+
+#include <gmock/gmock.h>
+
+#include <future>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace giveway {
+namespace {
+
+using testing::ElementsAre;
+
+// Writes nowhere. The first write does not end before Release.
+class StalledDisk {
+ public:
+  std::string Write(const std::string& bytes) {
+    written_.push_back(bytes);
+    if (written_.size() == 1) {
+      started_.set_value();
+      released_.get_future().wait();
+    }
+    return bytes == "bad" ? "the disk is full" : "";
+  }
+  void AwaitStart() { started_.get_future().wait(); }
+  void Release() { released_.set_value(); }
+  // Only once the writer has finished.
+  const std::vector<std::string>& Written() const { return written_; }
+
+ private:
+  std::vector<std::string> written_;
+  std::promise<void> started_;
+  std::promise<void> released_;
+};
+
+struct Stalled {
+  StalledDisk disk;
+  StateWriter writer{[this](const std::string& bytes) { return disk.Write(bytes); }};
+};
+
+TEST(StateWriter, HandingOverAStateDoesNotWaitForADiskThatStalls) {
+  Stalled stalled;
+  stalled.writer.Write("first");
+  stalled.disk.AwaitStart();
+  stalled.writer.Write("second");
+  EXPECT_FALSE(stalled.writer.TakeOutcome());
+  stalled.disk.Release();
+}
+
+TEST(StateWriter, OfStatesThatWaitOnlyTheNewestIsWritten) {
+  Stalled stalled;
+  stalled.writer.Write("first");
+  stalled.disk.AwaitStart();
+  for (const char* state : {"second", "third", "bad"}) stalled.writer.Write(state);
+  stalled.disk.Release();
+  std::optional<StateWriter::Outcome> outcome;
+  while (!outcome || outcome->complaint.empty()) {
+    if (auto next = stalled.writer.TakeOutcome()) outcome = next;
+    std::this_thread::yield();
+  }
+  EXPECT_EQ(outcome->complaint, "the disk is full");
+  EXPECT_FALSE(stalled.writer.TakeOutcome());
+  stalled.writer.Finish();
+  EXPECT_THAT(stalled.disk.Written(), ElementsAre("first", "bad"));
+}
+
+// The file of a run that has ended is removed then: nothing may bring it back.
+TEST(StateWriter, HasWrittenTheNewestStateOnceItHasFinished) {
+  Stalled stalled;
+  stalled.writer.Write("first");
+  stalled.disk.AwaitStart();
+  stalled.writer.Write("second");
+  stalled.disk.Release();
+  stalled.writer.Finish();
+  EXPECT_THAT(stalled.disk.Written(), ElementsAre("first", "second"));
+}
+
+}  // namespace
+}  // namespace giveway
