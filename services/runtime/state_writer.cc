@@ -1,5 +1,6 @@
 #include "services/runtime/state_writer.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "services/runtime/process.h"
@@ -24,9 +25,14 @@ void StateWriter::Write(std::string bytes) {
   work_.notify_one();
 }
 
-std::optional<StateWriter::Outcome> StateWriter::TakeOutcome() {
+std::optional<std::string> StateWriter::TakeOutcome() {
   const std::scoped_lock lock(mutex_);
   return std::exchange(outcome_, std::nullopt);
+}
+
+Nanoseconds StateWriter::Longest() {
+  const std::scoped_lock lock(mutex_);
+  return longest_;
 }
 
 void StateWriter::Finish() {
@@ -46,9 +52,11 @@ void StateWriter::Run() {
     const std::string bytes = *std::exchange(next_, std::nullopt);
     lock.unlock();
     const SteadyTime begun = SteadyNow();
-    Outcome outcome{write_(bytes), SteadyNow() - begun};
+    std::string outcome = write_(bytes);
+    const Nanoseconds took = SteadyNow() - begun;
     lock.lock();
     outcome_ = std::move(outcome);
+    longest_ = std::max(longest_, took);
   }
 }
 

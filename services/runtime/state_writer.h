@@ -18,10 +18,6 @@ class StateWriter {
  public:
   // Writes the bytes. Empty if they are written, else why not. On the thread of the writer.
   using WriteState = std::function<std::string(const std::string& bytes)>;
-  struct Outcome {
-    std::string complaint;  // empty: written
-    Nanoseconds took{0};
-  };
 
   explicit StateWriter(WriteState write);
   // As Finish.
@@ -31,8 +27,10 @@ class StateWriter {
 
   // Never waits for the disk. Not after Finish.
   void Write(std::string bytes);
-  // Of the last write that has ended, once.
-  std::optional<Outcome> TakeOutcome();
+  // What the last write that has ended returned, once.
+  std::optional<std::string> TakeOutcome();
+  // How long the longest write took that has ended.
+  Nanoseconds Longest();
   // Waits until the newest state is written: nothing is written afterwards.
   void Finish();
 
@@ -43,7 +41,8 @@ class StateWriter {
   std::mutex mutex_;  // guards all that follows; never held while a state is written
   std::condition_variable work_;
   std::optional<std::string> next_;
-  std::optional<Outcome> outcome_;
+  std::optional<std::string> outcome_;
+  Nanoseconds longest_{0};
   bool closed_ = false;
   std::thread thread_;
 };

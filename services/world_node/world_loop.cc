@@ -327,9 +327,8 @@ void WorldLoop::KeepCheckpoint() {
 void WorldLoop::NoteCheckpoint() {
   const auto outcome = checkpoint_writer_->TakeOutcome();
   if (!outcome) return;
-  const std::string line = checkpoint_fault_.Note(outcome->complaint, SteadyNow());
+  const std::string line = checkpoint_fault_.Note(*outcome, SteadyNow());
   if (!line.empty()) LogWarning("checkpoint " + line);
-  longest_checkpoint_ = std::max(longest_checkpoint_, outcome->took);
 }
 
 bool WorldLoop::AnnounceEnd(Nanoseconds patience) {
@@ -348,8 +347,8 @@ bool WorldLoop::AnnounceEnd(Nanoseconds patience) {
     checkpoint_writer_->Finish();
     NoteCheckpoint();
     RemoveStateFile(options_.checkpoint_file);  // what has ended does not resume
-    LogInfo("the longest checkpoint took " + std::to_string(Milliseconds(longest_checkpoint_)) +
-            " ms");
+    LogInfo("the longest checkpoint took " +
+            std::to_string(Milliseconds(checkpoint_writer_->Longest())) + " ms");
   }
   LogInfo("ended: " + reason + "; " + (figures.passed ? "passed" : "failed: " + figures.reason) +
           "; late for " + std::to_string(overruns_) + " ticks");

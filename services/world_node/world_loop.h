@@ -117,7 +117,6 @@ class WorldLoop {
   std::unique_ptr<StateWriter> checkpoint_writer_;  // null: none is kept
   SteadyTime next_checkpoint_{0};
   FaultReminder checkpoint_fault_;  // a full disk is no news at every tick
-  Nanoseconds longest_checkpoint_{0};
 };
 
 }  // namespace giveway
