@@ -48,8 +48,7 @@ refusals() {
 
 # judged_soak NAME ARGUMENTS...: fleetctl soak ARGUMENTS, its report in $SCRATCH/NAME, its JSON and its log next to
 # it. Its exit code. One that judges nothing, since the machine paused for too large a part of the time, is made
-# again, twice at most; so is one whose process was ended by its watchdog (70): a disk that stalls for three
-# seconds, as next to compilers, stops a loop that writes.
+# again, twice at most.
 judged_soak() {
   local name=$1 code try
   shift
@@ -63,10 +62,7 @@ judged_soak() {
   done
   return "$code"
 }
-too_busy() {
-  jq -e '(.reasons | index("machine_too_busy") != null) or
-    any(.violations[]?; .words | contains("exit code 70"))' "$1" >/dev/null 2>&1
-}
+too_busy() { jq -e '.reasons | index("machine_too_busy") != null' "$1" >/dev/null 2>&1; }
 
 # Every child of process $1 is gone, five seconds at most after it.
 all_gone() {
