@@ -279,6 +279,7 @@ stage_rules() {
   check "words are counted where people read them" bash tests/rules/words_test.sh
   check "known vulnerabilities against the installed packages" bash tests/rules/exposure.sh
   check "the check of vulnerabilities finds each contradiction" bash tests/rules/exposure_test.sh
+  check "empty reports and late machines are judged as they should be" bash tests/rules/support_test.sh
   check "shell scripts" shellcheck "${scripts[@]}"
   check "the wire types are generated next to another user's" bash tests/rules/generate_test.sh
 }

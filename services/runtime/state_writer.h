@@ -3,13 +3,18 @@
 // newest is kept. What is written, and where, is up to the function it is given.
 #pragma once
 
+#include <algorithm>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
+#include "services/runtime/process.h"
+#include "services/runtime/signals_blocked.h"
+#include "services/types/check.h"
 #include "services/types/time.h"
 
 namespace giveway {
@@ -19,23 +24,60 @@ class StateWriter {
   // Writes the bytes. Empty if they are written, else why not. On the thread of the writer.
   using WriteState = std::function<std::string(const std::string& bytes)>;
 
-  explicit StateWriter(WriteState write);
+  explicit StateWriter(WriteState write) : write_(std::move(write)) {
+    const SignalsBlocked blocked;
+    thread_ = std::thread([this] { Run(); });
+  }
   // As Finish.
-  ~StateWriter();
+  ~StateWriter() { Finish(); }
   StateWriter(const StateWriter&) = delete;
   StateWriter& operator=(const StateWriter&) = delete;
 
   // Never waits for the disk. Not after Finish.
-  void Write(std::string bytes);
+  void Write(std::string bytes) {
+    {
+      const std::scoped_lock lock(mutex_);
+      GIVEWAY_CHECK(!closed_, bytes.size());
+      next_ = std::move(bytes);
+    }
+    work_.notify_one();
+  }
   // What the last write that has ended returned, once.
-  std::optional<std::string> TakeOutcome();
+  std::optional<std::string> TakeOutcome() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(outcome_, std::nullopt);
+  }
   // How long the longest write took that has ended.
-  Nanoseconds Longest();
+  Nanoseconds Longest() {
+    const std::scoped_lock lock(mutex_);
+    return longest_;
+  }
   // Waits until the newest state is written: nothing is written afterwards.
-  void Finish();
+  void Finish() {
+    {
+      const std::scoped_lock lock(mutex_);
+      closed_ = true;
+    }
+    work_.notify_one();
+    if (thread_.joinable()) thread_.join();
+  }
 
  private:
-  void Run();
+  void Run() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      work_.wait(lock, [this] { return next_ || closed_; });
+      if (!next_) return;
+      const std::string bytes = *std::exchange(next_, std::nullopt);
+      lock.unlock();
+      const SteadyTime begun = SteadyNow();
+      std::string outcome = write_(bytes);
+      const Nanoseconds took = SteadyNow() - begun;
+      lock.lock();
+      outcome_ = std::move(outcome);
+      longest_ = std::max(longest_, took);
+    }
+  }
 
   const WriteState write_;
   std::mutex mutex_;  // guards all that follows; never held while a state is written

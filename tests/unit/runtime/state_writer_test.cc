@@ -1,4 +1,4 @@
-// The writer of a process's state, with a disk that stalls until the test lets it go on.
+// The writer of a process's state, with a disk that stalls until the test releases it.
 #include "services/runtime/state_writer.h"
 
 #include <gmock/gmock.h>

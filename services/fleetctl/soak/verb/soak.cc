@@ -41,6 +41,7 @@
 #include "services/fleetctl/soak/verb/soak_virtual.h"
 #include "services/fleetctl/stopwatch/stopwatch_limits.h"
 #include "services/link/fastdds/library_release.h"
+#include "services/runtime/state_writer.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -344,10 +345,15 @@ int SoakProcesses(const SoakOptions& options, const Prepared& prepared, const So
                  &result);
     return whole == nullptr ? result : Joined(*whole, result);
   };
+  // A disk that stalls would be a pause of the supervisor, which is taken for one of the machine.
+  StateWriter saver(
+      [&options](const std::string& so_far) { return SaveSoFar(so_far, options.report_folder); });
   const SoakSeen seen = session.Run([&](const SoakSeen& so_far) {
-    const std::string why = SaveSoFar(judged(so_far), options.report_folder);
+    const std::string why = saver.TakeOutcome().value_or("");
     if (!why.empty()) std::fprintf(stderr, "what was seen so far is not saved: %s\n", why.c_str());
+    saver.Write(ToJson(judged(so_far)));
   });
+  saver.Finish();
   return Conclude(options, judged(seen));
 }
 

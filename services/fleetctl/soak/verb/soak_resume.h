@@ -10,8 +10,9 @@
 
 namespace giveway::fleetctl {
 
-// Replaces what was saved before. Returns the reason of a failure, as on a full disk; empty: none.
-std::string SaveSoFar(const SoakResult& so_far, const std::string& folder);
+// Replaces what was saved before with the JSON of a SoakResult. Returns the reason of a failure, as
+// on a full disk; empty: none.
+std::string SaveSoFar(const std::string& so_far, const std::string& folder);
 // It has reached its verdict: there is nothing to continue.
 void ForgetSoFar(const std::string& folder);
 // Throws InputError if the folder has no soak that can be resumed.

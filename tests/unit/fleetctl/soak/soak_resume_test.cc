@@ -80,9 +80,9 @@ TEST(SoakResume, WhatWasBrokenBeforeStaysBroken) {
 TEST(SoakResume, WhatIsSavedComesBackAndIsForgottenWithTheVerdict) {
   const TempFolder folder;
   const SoakResult saved = SampleSoak(3);
-  ASSERT_EQ(SaveSoFar(saved, folder.Path()), "");
+  ASSERT_EQ(SaveSoFar(ToJson(saved), folder.Path()), "");
   EXPECT_EQ(ToJson(LoadSoFar(folder.Path())), ToJson(saved));
-  EXPECT_NE(SaveSoFar(saved, folder.Path() + "/nowhere"), "");
+  EXPECT_NE(SaveSoFar(ToJson(saved), folder.Path() + "/nowhere"), "");
   ForgetSoFar(folder.Path());
   EXPECT_THROW(LoadSoFar(folder.Path()), InputError);
 }
@@ -90,8 +90,8 @@ TEST(SoakResume, WhatIsSavedComesBackAndIsForgottenWithTheVerdict) {
 // A machine may die while it saves: the file is then the old or the new one.
 TEST(SoakResume, IsSavedWholeOrNotAtAll) {
   const TempFolder folder;
-  ASSERT_EQ(SaveSoFar(SampleSoak(3), folder.Path()), "");
-  ASSERT_EQ(SaveSoFar(SampleSoak(4), folder.Path()), "");
+  ASSERT_EQ(SaveSoFar(ToJson(SampleSoak(3)), folder.Path()), "");
+  ASSERT_EQ(SaveSoFar(ToJson(SampleSoak(4)), folder.Path()), "");
   EXPECT_EQ(LoadSoFar(folder.Path()).seed, 4U);
   std::size_t files = 0;
   for ([[maybe_unused]] const auto& file : std::filesystem::directory_iterator(folder.Path())) {
