@@ -38,37 +38,67 @@ run_of() {
 
 asan13() { run_of asan; }
 
+# end_of_background FILE: waits for what runs in the background, and prints what it wrote to FILE and FILE.log.
+end_of_background() {
+  wait
+  cat "$1.log" >&2
+  cat "$1"
+  rm -f "$1" "$1.log"
+}
+
+# It takes a given time, and only computes: at idle priority it holds up nobody who waits for a deadline.
+fuzz_meanwhile() {
+  chrt --idle --pid 0 "$BASHPID"
+  run_of fuzz
+}
+
 debian13() {
-  local scripts=(crossing:intersection_yield crossing:peer_dies crossing:four_way rejoin
+  local printed scripts=(crossing:intersection_yield crossing:peer_dies crossing:four_way rejoin
     world_restart interrupt health qos)
   [[ ${GIVEWAY_FULL:-} != true ]] || scripts+=(repeat:intersection_yield repeat:intersection_equal
     bad_input impaired observers apply stopwatch why doctor tune replay kill_drill)
   export GIVEWAY_SUITE=trixie
   SUITE=$GIVEWAY_SUITE
   base_image "$SUITE"
-  run_of asan_link fuzz
+  run_of asan_link
+  printed=$(mktemp)
+  fuzz_meanwhile >"$printed" 2>"$printed.log" &
   case_of "known vulnerabilities against the packages of Debian 13" debian13 --exposure
   bash "$HERE/debian13.sh" --system "${scripts[@]}" || true
   build_image vehicle
   build_image world
   bash "$HERE/mixed.sh" || true
+  end_of_background "$printed"
 }
 
+# drills DISCOVERY: a composed fleet whose vehicles discover each other so.
+drills() {
+  [[ $1 != multicast ]] || case_of "a fleet as the README starts it" patrol
+  case_of "crossings of 2 and 8, $1" crossing "$1"
+  case_of "drills, $1" fault_drills "$1"
+  case_of "eight cross while things happen, $1" rough_crossing "$1"
+}
+# Those without a discovery of their own.
+other_drills() { # KILLS
+  case_of "stops, and $1 kill -9 restarts" shutdown "$1"
+  case_of "bad input" bad_input
+}
+
+# Two fleets at a time, each on a network of its own: most of a drill is waiting.
 containers() {
-  local kills=20 discoveries=(multicast)
+  local kills=20 printed
   [[ ${GIVEWAY_FULL:-} != true ]] || kills=200
   base_image "$SUITE"
   for target in world vehicle tools; do build_image "$target"; done
   case_of "images" images
-  [[ $SUITE == bookworm ]] || discoveries+=(servers)
-  for discovery in "${discoveries[@]}"; do
-    [[ $discovery != multicast ]] || case_of "a fleet as the README starts it" patrol
-    case_of "crossings of 2 and 8, $discovery" crossing "$discovery"
-    case_of "drills, $discovery" fault_drills "$discovery"
-    case_of "eight cross while things happen, $discovery" rough_crossing "$discovery"
-  done
-  case_of "stops, and $kills kill -9 restarts" shutdown "$kills"
-  case_of "bad input" bad_input
+  printed=$(mktemp)
+  {
+    export GIVEWAY_DRILL=2
+    [[ $SUITE == bookworm ]] || drills servers
+    other_drills "$kills"
+  } >"$printed" 2>"$printed.log" &
+  drills multicast
+  end_of_background "$printed"
 }
 
 mapfile -t wanted < <(container_packages)

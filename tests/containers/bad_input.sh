@@ -4,11 +4,12 @@
 source "$(dirname "${BASH_SOURCE[0]}")/../support/composed_fleet.sh"
 engine_up
 use multicast
-docker network create giveway-bad --subnet 172.30.54.0/24 >/dev/null
+BAD_SUBNET=172.30.$((72 + DRILL))
+docker network create "$PROJECT-bad" --subnet "$BAD_SUBNET.0/24" >/dev/null
 made=()
 end_bad_input() {
   [[ ${#made[@]} -eq 0 ]] || docker rm -f "${made[@]}" >/dev/null
-  docker network rm giveway-bad >/dev/null
+  docker network rm "$PROJECT-bad" >/dev/null
   end_drill
 }
 trap end_bad_input EXIT
@@ -20,7 +21,7 @@ service() {
   for pair in GIVEWAY_SCENARIO=open_fleet GIVEWAY_DOMAIN=1 GIVEWAY_INTERFACE=eth0 "$@"; do
     variables+=(-e "$pair")
   done
-  BAD=$(docker run -d --read-only --cap-drop ALL --restart on-failure --network giveway-bad \
+  BAD=$(docker run -d --read-only --cap-drop ALL --restart on-failure --network "$PROJECT-bad" \
     "${variables[@]}" "giveway-$program")
   made+=("$BAD")
 }
@@ -59,11 +60,11 @@ ends_with "no QoS file is mounted" 'missing.xml: does not exist; give a complete
 service vehicle GIVEWAY_DISCOVERY_SERVER=no_such_host:11811
 waits_with "a server without an address" 'discovery server no_such_host .* has no address yet' \
   'discovery server no_such_host .* has no address yet'
-service vehicle GIVEWAY_DISCOVERY_SERVER=172.30.54.200
-waits_with "a server that does not answer" 'no discovery server answers' '172.30.54.200:11811'
+service vehicle GIVEWAY_DISCOVERY_SERVER="$BAD_SUBNET.200"
+waits_with "a server that does not answer" 'no discovery server answers' "$BAD_SUBNET.200:11811"
 # Patient: a shipped fleet waits ten minutes for its vehicles.
-service world GIVEWAY_DISCOVERY_SERVER=172.30.54.200 GIVEWAY_SCENARIO=fleet_2
-waits_with "a world whose server does not answer" 'no discovery server answers' '172.30.54.200:11811'
+service world GIVEWAY_DISCOVERY_SERVER="$BAD_SUBNET.200" GIVEWAY_SCENARIO=fleet_2
+waits_with "a world whose server does not answer" 'no discovery server answers' "$BAD_SUBNET.200:11811"
 service vehicle
 waits_with "no world" 'no answer from a world yet' 'is giveway-world running in this domain'
 

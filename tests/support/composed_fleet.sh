@@ -5,7 +5,11 @@ source "$(dirname "${BASH_SOURCE[0]}")/../support/engine.sh"
 source "$(dirname "${BASH_SOURCE[0]}")/../support/only_late.sh"
 
 HERE=$GIVEWAY_ROOT/tests/containers
-PROJECT=giveway-drill
+# Which of the drills at a time this is: containers, network and firewall rules of each are its own.
+DRILL=${GIVEWAY_DRILL:-1}
+PROJECT=giveway-drill-$DRILL
+FIREWALL=giveway_drill_$DRILL
+export GIVEWAY_SUBNET=172.30.$((52 + DRILL))
 SCRATCH=$(mktemp -d)
 # What drill.yaml mounts; the services' user reads it.
 export DRILL_SCENARIOS=$SCRATCH/scenarios
@@ -45,11 +49,11 @@ up() {
 down() { compose down -v -t 5 >"$SCRATCH/down.log" 2>&1 || fail "down: $(tail -n 3 "$SCRATCH/down.log")"; }
 
 block_multicast() {
-  nft -f - <<'TEXT'
-table bridge giveway_drill {
+  nft -f - <<TEXT
+table bridge $FIREWALL {
   chain forward {
     type filter hook forward priority 0;
-    ether daddr & ff:ff:ff:80:00:00 == 01:00:5e:00:00:00 counter drop
+    ip saddr $GIVEWAY_SUBNET.0/24 ether daddr & ff:ff:ff:80:00:00 == 01:00:5e:00:00:00 counter drop
   }
 }
 TEXT
@@ -64,9 +68,9 @@ multicast_finds_nobody() {
   await "by multicast: the firewall dropped it" 5 drops_multicasts
   docker rm -f "$alone" >/dev/null
 }
-drops_multicasts() { nft list table bridge giveway_drill | grep -q 'counter packets [1-9]'; }
+drops_multicasts() { nft list table bridge "$FIREWALL" | grep -q 'counter packets [1-9]'; }
 says() { docker logs "$1" 2>&1 | grep -Eq "$2"; }
-pass_multicast() { nft delete table bridge giveway_drill 2>/dev/null || true; }
+pass_multicast() { nft delete table bridge "$FIREWALL" 2>/dev/null || true; }
 
 end_drill() {
   if [[ $failures -ne 0 ]]; then
