@@ -38,9 +38,10 @@ run_of() {
 
 asan13() { run_of asan; }
 
-# end_of_background FILE: waits for what runs in the background, and prints what it wrote to FILE and FILE.log.
+# end_of_background FILE: waits for the process `meanwhile` (the engine is in the background too), and prints
+# what it wrote to FILE and FILE.log.
 end_of_background() {
-  wait
+  wait "$meanwhile"
   cat "$1.log" >&2
   cat "$1"
   rm -f "$1" "$1.log"
@@ -63,6 +64,7 @@ debian13() {
   run_of asan_link
   printed=$(mktemp)
   fuzz_meanwhile >"$printed" 2>"$printed.log" &
+  meanwhile=$!
   case_of "known vulnerabilities against the packages of Debian 13" debian13 --exposure
   bash "$HERE/debian13.sh" --system "${scripts[@]}" || true
   build_image vehicle
@@ -97,6 +99,7 @@ containers() {
     [[ $SUITE == bookworm ]] || drills servers
     other_drills "$kills"
   } >"$printed" 2>"$printed.log" &
+  meanwhile=$!
   drills multicast
   end_of_background "$printed"
 }
