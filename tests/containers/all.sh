@@ -80,12 +80,6 @@ drills() {
   case_of "drills, $1" fault_drills "$1"
   case_of "eight cross while things happen, $1" rough_crossing "$1"
 }
-# Those without a discovery of their own.
-other_drills() { # KILLS
-  case_of "stops, and $1 kill -9 restarts" shutdown "$1"
-  case_of "bad input" bad_input
-}
-
 # Two fleets at a time, each on a network of its own: most of a drill is waiting.
 containers() {
   local kills=20 printed
@@ -97,10 +91,11 @@ containers() {
   {
     export GIVEWAY_DRILL=2
     [[ $SUITE == bookworm ]] || drills servers
-    other_drills "$kills"
+    case_of "stops, and $kills kill -9 restarts" shutdown "$kills"
   } >"$printed" 2>"$printed.log" &
   meanwhile=$!
   drills multicast
+  case_of "bad input" bad_input
   end_of_background "$printed"
 }
 
