@@ -80,6 +80,7 @@ drills() {
   case_of "drills, $1" fault_drills "$1"
   case_of "eight cross while things happen, $1" rough_crossing "$1"
 }
+
 # Two fleets at a time, each on a network of its own: most of a drill is waiting.
 containers() {
   local kills=20 printed
