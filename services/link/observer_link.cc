@@ -19,8 +19,11 @@ constexpr std::int32_t kBeaconDepth = 32;  // an observer that looks once a seco
 }  // namespace
 
 struct ObserverLink::Impl {
-  Impl(const LinkOptions& options, Ranges ranges, Commands commands)
-      : participant(OfAllBodies(options), "giveway-observer", names),
+  Impl(const LinkOptions& given, Ranges given_ranges, Commands given_commands)
+      : options(given),
+        ranges(given_ranges),
+        commands(given_commands),
+        participant(OfAllBodies(options), "giveway-observer", names),
         status_reader(participant.MakeReader<wire::Status>("v*", &status_owners)),
         beacons(participant.MakeReader<wire::Beacon>(
                     options.area + "/*", kBeaconDepth, &beacon_events,
@@ -87,6 +90,9 @@ struct ObserverLink::Impl {
     observed.refused += refused - std::exchange(refused_by_filters, refused);
   }
 
+  const LinkOptions options;
+  const Ranges ranges;
+  const Commands commands;
   ParticipantNames names;  // the library calls these two until the participant is gone
   ReaderEvents beacon_events{&RemoveDeparted<wire::Beacon>};  // only to remove; its news go unread
   KeyQuota beacon_ids{"beacon", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, kMostIdsOfWriter};
@@ -112,7 +118,19 @@ ObserverLink::ObserverLink(const LinkOptions& options, Ranges ranges, Commands c
     : impl_(std::make_unique<Impl>(options, ranges, commands)) {}
 ObserverLink::~ObserverLink() = default;
 
+// The former participant first: at its end it removes the port for multicast of its process, which the next
+// has open, too.
+void ObserverLink::RenewIfDeaf() {
+  if (!memory_.IsGone()) return;
+  const LinkOptions options = impl_->options;
+  const Ranges ranges = impl_->ranges;
+  const Commands commands = impl_->commands;
+  impl_.reset();
+  impl_ = std::make_unique<Impl>(options, ranges, commands);
+}
+
 Observed ObserverLink::Take() {
+  RenewIfDeaf();
   impl_->names.Writers().Update();
   Observed observed;
   impl_->AppendOwn(impl_->status_reader, impl_->status_owners, observed.statuses, observed);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "services/link/fastdds/link_options.h"
+#include "services/link/fastdds/shared_memory_watch.h"
 #include "services/types/beacon.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/motor_command.h"
@@ -47,12 +48,17 @@ class ObserverLink {
   ObserverLink& operator=(const ObserverLink&) = delete;
 
   // Everything that came since the last call: events in order, the other kinds in order of arrival
-  // for each vehicle (roster: session; signals: head).
+  // for each vehicle (roster: session; signals: head). Where its shared memory was deleted it makes its
+  // participant anew, which takes a tenth of a second: nobody who comes later would be received. Throws
+  // LinkError where it cannot.
   Observed Take();
 
  private:
   struct Impl;
+  void RenewIfDeaf();
+
   std::unique_ptr<Impl> impl_;
+  SharedMemoryWatch memory_;
 };
 
 }  // namespace giveway::link

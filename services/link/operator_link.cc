@@ -30,8 +30,9 @@ struct HeldAnswer {
 }  // namespace
 
 struct OperatorLink::Impl {
-  Impl(const LinkOptions& options, std::string admin_key)
-      : key(std::move(admin_key)),
+  Impl(const LinkOptions& given, std::string admin_key)
+      : options(given),
+        key(std::move(admin_key)),
         participant(options, "giveway-operator", names),
         answers(participant.MakeReader<wire::Answer>("v*", &strangers)) {}
 
@@ -75,6 +76,7 @@ struct OperatorLink::Impl {
     return found->second;
   }
 
+  const LinkOptions options;
   const std::string key;
   ParticipantNames names;  // the library calls it until the participant is gone
   KeyQuota strangers{"answer", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, kMostIdsOfWriter};
@@ -125,7 +127,20 @@ std::uint64_t OperatorLink::NextNumber() {
   return next;
 }
 
+// As ObserverLink.
+void OperatorLink::RenewIfDeaf() {
+  if (!memory_.IsGone()) return;
+  const LinkOptions options = impl_->options;
+  const std::string key = impl_->key;
+  std::vector<VehicleId> sought;
+  for (const auto& writer : impl_->writers) sought.push_back(writer.first);
+  impl_.reset();
+  impl_ = std::make_unique<Impl>(options, key);
+  for (const VehicleId vehicle : sought) Seek(vehicle);
+}
+
 std::vector<AdminAnswer> OperatorLink::Take() {
+  RenewIfDeaf();
   impl_->names.Writers().Update();
   std::vector<AdminAnswer> taken;
   for (HeldAnswer& held : std::exchange(impl_->held, {})) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "services/link/fastdds/link_options.h"
+#include "services/link/fastdds/shared_memory_watch.h"
 #include "services/types/admin.h"
 #include "services/types/refusal.h"
 
@@ -32,7 +33,8 @@ class OperatorLink {
   bool Reaches(VehicleId vehicle) const;
   // False if the library refused the order. It was sought, and is reached.
   bool Send(const AdminRequest& order);
-  // Everything that came since the last call. With a key, a refusal may come without a seal: of a
+  // Everything that came since the last call. Where its shared memory was deleted it makes its participant
+  // anew, as ObserverLink::Take: orders that are not answered yet are lost. With a key, a refusal may come without a seal: of a
   // service that has another key, or finds the order's number used. Its seal is then 0.
   std::vector<AdminAnswer> Take();
   // Answers that were not believed: of a participant that does not speak for the vehicle, of ids
@@ -42,7 +44,10 @@ class OperatorLink {
 
  private:
   struct Impl;
+  void RenewIfDeaf();
+
   std::unique_ptr<Impl> impl_;
+  SharedMemoryWatch memory_;
 };
 
 }  // namespace giveway::link

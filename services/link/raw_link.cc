@@ -173,7 +173,19 @@ RawLink::RawLink(const LinkOptions& options, const std::vector<std::size_t>& top
 }
 RawLink::~RawLink() = default;
 
+// As ObserverLink.
+void RawLink::RenewIfDeaf() {
+  if (!memory_.IsGone()) return;
+  const LinkOptions options = impl_->options;
+  std::vector<std::size_t> topics;
+  for (const OpenTopic& open : impl_->open) topics.push_back(open.topic);
+  impl_.reset();
+  impl_ = std::make_unique<Impl>(options);
+  for (const std::size_t topic : topics) Open(topic);
+}
+
 void RawLink::Collect() {
+  RenewIfDeaf();
   impl_->names.Update();
   for (const OpenTopic& open : impl_->open) open.reader.drain(samples_);
 }

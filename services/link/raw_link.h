@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "services/link/fastdds/link_options.h"
+#include "services/link/fastdds/shared_memory_watch.h"
 
 namespace giveway::link {
 
@@ -42,7 +43,8 @@ class RawLink {
   // Reads this topic, too, from here on; nothing where it is read already. Throws LinkError. None
   // is closed before all are: the library removes readers of a running participant unsafely.
   void Open(std::size_t topic);
-  // Calls take(sample) for all that came since the last call; of one instance in order.
+  // Calls take(sample) for all that came since the last call; of one instance in order. Where its shared
+  // memory was deleted it makes its participant anew, as ObserverLink::Take.
   template <typename TakeSample>
   void Take(TakeSample&& take) {
     Collect();
@@ -58,9 +60,11 @@ class RawLink {
   struct Impl;
   struct OpenTopic;
   void Collect();
+  void RenewIfDeaf();
   const OpenTopic* Find(std::size_t topic) const;
 
   std::unique_ptr<Impl> impl_;
+  SharedMemoryWatch memory_;
   std::vector<RawSample> samples_;
 };
 

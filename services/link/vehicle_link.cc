@@ -5,6 +5,7 @@
 
 #include "services/link/convert/convert.h"
 #include "services/link/fastdds/interface_watch.h"
+#include "services/link/fastdds/shared_memory_watch.h"
 #include "services/link/fastdds/library_log.h"
 #include "services/link/fastdds/reader_events.h"
 #include "services/link/fastdds/writer_names.h"
@@ -268,6 +269,7 @@ std::string VehicleLink::ParticipantText() const { return impl_->participant.Pre
 std::string VehicleLink::WhyNoPeerIsFound() const { return impl_->participant.WhyNoPeerIsFound(); }
 
 std::string VehicleLink::InterfaceChange() const { return impl_->interfaces.Change(); }
+bool VehicleLink::SharedMemoryIsGone() const { return link::SharedMemoryIsGone(); }
 
 bool VehicleLink::WorldSpeaks() const {
   if (!impl_->own) return false;

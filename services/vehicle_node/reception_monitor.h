@@ -1,4 +1,4 @@
-// Whether a vehicle can still hear its world, and what helps where it cannot.
+// Whether a vehicle can still hear its world and be heard, and what helps where it cannot.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,8 @@ namespace giveway {
 
 enum class Remedy : std::uint8_t {
   kNone,
-  kNewParticipant,  // the world speaks and is not heard: the vehicle restarts itself
+  kNewParticipant,  // the world speaks and is not heard, or newcomers cannot hear the vehicle, whose
+                    // shared memory was deleted: it restarts itself
   kNewProcess,      // its interface is another now: it ends, for the restart policy
 };
 

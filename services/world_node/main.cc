@@ -41,7 +41,9 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario,
   ServiceAdmin admin(&link, link_options, kNoVehicle, flags.lockstep, std::move(gate));
   options.on_back = [&] {
     settled();
-    if (flags.resume) admin.AnswerResumed(flags.resume->order, flags.rolled_back);
+    if (flags.resume && flags.resume->order != 0) {
+      admin.AnswerResumed(flags.resume->order, flags.rolled_back);
+    }
   };
   WorldLoop loop(scenario, &link, &admin, &health, options);
   const WorldEnd end = loop.Drive(stop);

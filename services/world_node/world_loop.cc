@@ -20,6 +20,7 @@ constexpr Nanoseconds kFlushTimeout = milliseconds(500);
 constexpr Nanoseconds kFlushWhenStopped = milliseconds(300);  // all is to be over in a second
 constexpr Nanoseconds kCheckpointPeriod = milliseconds(200);
 constexpr Nanoseconds kReminder = seconds(5);
+constexpr Nanoseconds kMemoryCheckEvery = seconds(1);
 // For the vehicles of a world that was restarted to find it: those that do not are silent then.
 constexpr Nanoseconds kResumePatience = seconds(10);
 // A vehicle that joins a running fleet stands until it hears all peers, but not for ever.
@@ -91,7 +92,8 @@ WorldEnd WorldLoop::Drive(const StopSignal& stop) {
     LogDrops(link::PacketsOfProcess(), SteadyNow(), &packet_log_);
     const bool goes = !resumed_with_ || fleet_->run.State() == RunState::kRunning;
     if (goes && options_.on_back) std::exchange(options_.on_back, nullptr)();
-    if (admin_.Serve() && !stop.IsSet()) {
+    const bool ordered = admin_.Serve();
+    if ((ordered || HasLostSharedMemory()) && !stop.IsSet()) {
       link_.FlushAnswer(kFlushTimeout);  // a vehicle that misses the next scan halts
       return WorldEnd::kRestarts;
     }
@@ -99,6 +101,15 @@ WorldEnd WorldLoop::Drive(const StopSignal& stop) {
   ReportHealth(HealthStage::kLeaving);
   const bool passed = AnnounceEnd(stop.IsSet() ? kFlushWhenStopped : kFlushTimeout);
   return passed ? WorldEnd::kPassed : WorldEnd::kFailed;
+}
+
+bool WorldLoop::HasLostSharedMemory() {
+  const SteadyTime now = SteadyNow();
+  if (now < next_memory_check_) return false;
+  next_memory_check_ = now + kMemoryCheckEvery;
+  if (!link_.SharedMemoryIsGone()) return false;
+  LogError("its shared memory was deleted, newcomers cannot receive it: starts itself again");
+  return true;
 }
 
 void WorldLoop::RunTick() {

@@ -45,6 +45,7 @@ class WorldLoop {
             HealthService<WorldHealth>* health, const WorldLoopOptions& options);
 
   // Runs to the end, or until an operator's order takes a restart.
+  // Likewise where its shared memory was deleted, which later vehicles would not find.
   WorldEnd Drive(const StopSignal& stop);
   // All that another process needs to resume from here.
   std::string State() const;
@@ -90,6 +91,7 @@ class WorldLoop {
   bool AnnounceEnd(Nanoseconds patience);
   void ReportHealth(HealthStage stage);
   void ReportIfAlone();
+  bool HasLostSharedMemory();
   bool MayCommand(const MotorCommand& command);
   void Heed(const MotorCommand& command);
   void LogRefused(const MotorCommand& command, const FieldFault& fault, bool passing);
@@ -116,6 +118,7 @@ class WorldLoop {
   std::uint32_t overruns_ = 0;
   std::unique_ptr<StateWriter> checkpoint_writer_;  // null: none is kept
   SteadyTime next_checkpoint_{0};
+  SteadyTime next_memory_check_{0};
   FaultReminder checkpoint_fault_;  // a full disk is no news at every tick
 };
 

@@ -58,6 +58,7 @@ class ScriptedLink final : public link::DriveLink {
   void SayThatWorldSpeaks() { world_speaks_ = true; }
   void SayThatItLacksBody() { lacks_body_ = true; }
   void ChangeInterface(const std::string& change) { interface_change_ = change; }
+  void DeleteSharedMemory() { shared_memory_is_gone_ = true; }
 
   bool WaitForScan(Nanoseconds timeout) override {
     waits_.push_back(timeout);
@@ -104,6 +105,7 @@ class ScriptedLink final : public link::DriveLink {
   }
   std::string WhyNoPeerIsFound() const override { return {}; }
   std::string InterfaceChange() const override { return interface_change_; }
+  bool SharedMemoryIsGone() const override { return shared_memory_is_gone_; }
   bool WorldSpeaks() const override { return world_speaks_; }
   bool LacksBody() const override { return lacks_body_; }
   link::VehicleLinkCounters Counters() const override { return {}; }
@@ -125,6 +127,7 @@ class ScriptedLink final : public link::DriveLink {
   std::vector<Nanoseconds> waits_;
   VehicleStatus last_status_;
   std::string interface_change_;
+  bool shared_memory_is_gone_ = false;
   bool world_speaks_ = false;
   bool lacks_body_ = false;
 };

@@ -237,6 +237,15 @@ TEST(VehicleLoop, ThatIsDeafWhileItsWorldSpeaksRestartsForANewParticipant) {
   EXPECT_EQ(bench.Link().JoinRequests().size(), 1U);
 }
 
+TEST(VehicleLoop, WhoseSharedMemoryWasDeletedRestartsForANewParticipant) {
+  LoopBench bench(ScanOnly);
+  bench.Link().DeleteSharedMemory();
+  const SteadyTime begun = bench.Now();
+  EXPECT_EQ(bench.Drive(), DriveEnd::kRestarts);
+  EXPECT_LE(bench.Now() - begun, seconds(2));
+  EXPECT_EQ(std::ranges::count(bench.Link().Calls(), "leave notice"), 3);
+}
+
 TEST(VehicleLoop, WhoseInterfaceChangedEndsWithoutAWord) {
   LoopBench bench([](std::uint32_t turn) {
     Arrival arrival;

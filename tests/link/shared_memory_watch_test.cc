@@ -1,0 +1,80 @@
+// Shared memory that is deleted while links use it, as by a cleaner of /dev/shm.
+#include "services/link/fastdds/shared_memory_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "services/link/fastdds/profile_file.h"
+#include "services/link/observer_link.h"
+#include "services/link/raw_link.h"
+#include "tests/link/fleet.h"
+
+namespace giveway::test {
+namespace {
+
+constexpr std::size_t kBeacons = 0;  // in RawTopics()
+
+link::LinkOptions OptionsInSharedMemory(const DomainLock& domain) {
+  link::LinkOptions options = OptionsIn(domain);
+  options.qos = link::ReadProfileFile(GIVEWAY_QOS_SETS "/same_host.xml");
+  return options;
+}
+
+// Segments and ports of this process, with their locks: those of others stay.
+void DeleteOwnSharedMemory() {
+  constexpr std::string_view kLock = "_el";
+  for (const std::string& file : link::LinksIn("/proc/self/fd")) {
+    if (!file.starts_with("/dev/shm/fast") || !file.ends_with(kLock)) continue;
+    std::filesystem::remove(file);
+    std::filesystem::remove(file.substr(0, file.size() - kLock.size()));
+  }
+}
+
+TEST(SharedMemoryWatch, KnowsTheLockOfAnOwnSegmentThatWasDeleted) {
+  EXPECT_TRUE(link::IsSegmentGone({"/dev/shm/fastrtps_6822afdd7747948d_el (deleted)"}));
+  EXPECT_TRUE(link::IsSegmentGone({"/dev/null", "/dev/shm/fastdds_6822afdd7747948d_el (deleted)"}));
+}
+
+TEST(SharedMemoryWatch, TakesNothingElseForIt) {
+  EXPECT_FALSE(link::IsSegmentGone({}));
+  EXPECT_FALSE(link::IsSegmentGone({"/dev/shm/fastrtps_6822afdd7747948d_el"}));
+  EXPECT_FALSE(link::IsSegmentGone({"/dev/shm/fastrtps_port7664_el (deleted)"}));
+  EXPECT_FALSE(link::IsSegmentGone({"/dev/shm/fastrtps_6822afdd7747948d (deleted)"}));
+  EXPECT_FALSE(link::IsSegmentGone({"/tmp/fastrtps_6822afdd7747948d_el (deleted)"}));
+  EXPECT_FALSE(link::IsSegmentGone({"/dev/shm/fastrtps_6822afdd7747948x_el (deleted)"}));
+}
+
+TEST(SharedMemoryWatch, ALinkOverUdpHasNoneToLose) {
+  const DomainLock domain;
+  const link::ObserverLink observer(OptionsIn(domain));
+  EXPECT_FALSE(link::SharedMemoryIsGone());
+}
+
+TEST(DeletedSharedMemory, AnObserverThatLostItHearsAVehicleThatComesLater) {
+  const DomainLock domain;
+  link::ObserverLink observer(OptionsInSharedMemory(domain));
+  EXPECT_FALSE(link::SharedMemoryIsGone());
+  DeleteOwnSharedMemory();
+  EXPECT_TRUE(link::SharedMemoryIsGone());
+  const BeaconingProcess seven(OptionsInSharedMemory(domain), VehicleId{7});
+  EXPECT_TRUE(Eventually([&] { return !observer.Take().beacons.empty(); }));
+  EXPECT_FALSE(link::SharedMemoryIsGone());
+}
+
+TEST(DeletedSharedMemory, ARecorderThatLostItHearsAVehicleThatComesLater) {
+  const DomainLock domain;
+  link::RawLink recorder(OptionsInSharedMemory(domain), {kBeacons});
+  DeleteOwnSharedMemory();
+  const BeaconingProcess seven(OptionsInSharedMemory(domain), VehicleId{7});
+  std::size_t heard = 0;
+  EXPECT_TRUE(Eventually([&] {
+    recorder.Take([&](const link::RawSample& /*sample*/) { ++heard; });
+    return heard > 0;
+  }));
+  EXPECT_FALSE(link::SharedMemoryIsGone());
+}
+
+}  // namespace
+}  // namespace giveway::test
