@@ -57,6 +57,9 @@ void AddFlags(Service service, CommandLine* line) {
               "carries out the world's faults of this list: ultrasonics, motors and "
               "encoders; fleetctl faults expand writes one");
   }
+  line->Add("--leave-out", "shared_memory",
+            "does without this transport of the set; a service whose shared memory was deleted\n"
+            "restarts itself so");
   line->Add("--try-qos", "FILE",
             "create every endpoint of this set once, report whether that succeeds, and exit");
   line->Add("--resume", "FILE",
@@ -176,6 +179,7 @@ ServiceFlags Read(Service service, FlagValues* values) {
     if (values->Text("--checkpoint")) flags.checkpoint = values->TextOr("", "--checkpoint");
     if (values->Text("--faults")) flags.faults = values->TextOr("", "--faults");
   }
+  flags.leaves_out_shared_memory = values->OneOf("--leave-out", {"shared_memory"}).has_value();
   flags.try_qos = values->Text("--try-qos").value_or("");
   flags.resume = ReadResumed(values);
   flags.former_qos = values->Text("--former-qos").value_or("");

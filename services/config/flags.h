@@ -31,6 +31,7 @@ struct ServiceFlags {
   std::uint64_t record_split = 0;  // vehicle only; bytes of a file of it; 0: it is one file
   Nanoseconds record_ring{0};      // vehicle only; keeps so much of it at least; 0: all
   bool partition_free = false;     // vehicle only; beacons also without a partition
+  bool leaves_out_shared_memory = false;  // of the profile set
   std::optional<Resumed> resume;   // it was itself before, see restart.h
   bool stay = false;               // vehicle only; outlives its world
   std::string go_on_from;          // world only; the checkpoint it gave to itself

@@ -118,11 +118,9 @@ ObserverLink::ObserverLink(const LinkOptions& options, Ranges ranges, Commands c
     : impl_(std::make_unique<Impl>(options, ranges, commands)) {}
 ObserverLink::~ObserverLink() = default;
 
-// The former participant first: at its end it removes the port for multicast of its process, which the next
-// has open, too.
 void ObserverLink::RenewIfDeaf() {
   if (!memory_.IsGone()) return;
-  const LinkOptions options = impl_->options;
+  const LinkOptions options = WithoutSharedMemory(impl_->options);
   const Ranges ranges = impl_->ranges;
   const Commands commands = impl_->commands;
   impl_.reset();

@@ -130,7 +130,7 @@ std::uint64_t OperatorLink::NextNumber() {
 // As ObserverLink.
 void OperatorLink::RenewIfDeaf() {
   if (!memory_.IsGone()) return;
-  const LinkOptions options = impl_->options;
+  const LinkOptions options = WithoutSharedMemory(impl_->options);
   const std::string key = impl_->key;
   std::vector<VehicleId> sought;
   for (const auto& writer : impl_->writers) sought.push_back(writer.first);

@@ -74,14 +74,19 @@ FilteredTransportOptions FilterOf(const LinkOptions& options,
           .says_farewell = SaysFarewell(options, qos)};
 }
 
-// UDP, and in addition shared memory if the profile names it: the profile says how, the options say
-// on which interfaces. Impaired if `impairer` is, and filtered behind that.
+bool IsSharedMemory(const std::shared_ptr<transport::TransportDescriptorInterface>& named) {
+  return dynamic_cast<transport::SharedMemTransportDescriptor*>(named.get()) != nullptr;
+}
+
+// UDP, and in addition shared memory if the profile names it and the options do not leave it out: the
+// profile says how, the options say on which interfaces. Impaired if `impairer` is, and filtered behind that.
 void SetTransport(dds::DomainParticipantQos& qos, const LinkOptions& options, bool filtered,
                   const std::shared_ptr<Impairer>& impairer) {
+  auto& list = qos.transport().user_transports;
+  if (options.leaves_out_shared_memory) std::erase_if(list, IsSharedMemory);
   const FilteredTransportOptions filter = FilterOf(options, qos);
   std::size_t udp_transports = 0;
   std::size_t shared_memories = 0;
-  auto& list = qos.transport().user_transports;
   for (auto& named : list) {
     if (const auto* udp = dynamic_cast<transport::UDPv4TransportDescriptor*>(named.get())) {
       // A copy, because the profile's descriptor is shared by the whole process.
@@ -91,7 +96,7 @@ void SetTransport(dds::DomainParticipantQos& qos, const LinkOptions& options, bo
       if (impairer != nullptr) named = MakeImpairedTransport(own, impairer);
       if (filtered) named = MakeFilteredTransport(named, filter);
       ++udp_transports;
-    } else if (dynamic_cast<transport::SharedMemTransportDescriptor*>(named.get()) != nullptr) {
+    } else if (IsSharedMemory(named)) {
       ++shared_memories;
     }
   }

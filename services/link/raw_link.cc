@@ -176,7 +176,7 @@ RawLink::~RawLink() = default;
 // As ObserverLink.
 void RawLink::RenewIfDeaf() {
   if (!memory_.IsGone()) return;
-  const LinkOptions options = impl_->options;
+  const LinkOptions options = WithoutSharedMemory(impl_->options);
   std::vector<std::size_t> topics;
   for (const OpenTopic& open : impl_->open) topics.push_back(open.topic);
   impl_.reset();

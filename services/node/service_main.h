@@ -27,7 +27,8 @@ inline link::LinkOptions LinkOptionsOf(const ServiceFlags& flags, const Scenario
       .fleet_size = static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size()),
       .partition_free = flags.partition_free,
       .impairment = {},
-      .discovery_servers = flags.discovery_servers};
+      .discovery_servers = flags.discovery_servers,
+      .leaves_out_shared_memory = flags.leaves_out_shared_memory};
 }
 
 // Only reception of vehicles is impaired: to the world it would be the wires to the wheels.

@@ -51,6 +51,11 @@ class FormerQos {
 
 }  // namespace
 
+LifeEnd WithoutLostMemory(LifeEnd end, bool shared_memory_is_gone) {
+  if (end.back && shared_memory_is_gone) (*end.back)["--leave-out"] = "shared_memory";
+  return end;
+}
+
 int RunService(const ServiceFlags& flags, const Scenario& scenario, const StopSignal& stop,
                const Live& live) {
   if (!flags.try_qos.empty()) return TryQosAndEnd(flags, scenario);

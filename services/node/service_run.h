@@ -20,6 +20,9 @@ struct LifeEnd {
   std::optional<NewFlags> back;  // to come back with; nothing: the process ends
 };
 
+// Where its shared memory was deleted it comes back without.
+LifeEnd WithoutLostMemory(LifeEnd end, bool shared_memory_is_gone);
+
 // The life of the service as a participant. It calls `settled` once it runs as it should: until
 // then an exception, or a signal that would end it, brings it back with the profiles it had before.
 using Live =

@@ -64,7 +64,7 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario, link::LinkOpti
   const DriveEnd end = loop.Drive([&] { return stop.IsSet(); });
   LogInfo(Describe(link.Counters()));
   if (const auto impaired = link.Impaired()) LogInfo(Describe(*impaired));
-  return EndOf(end, loop, admin);
+  return WithoutLostMemory(EndOf(end, loop, admin), link.SharedMemoryIsGone());
 }
 
 int Run(const ServiceFlags& flags, const StopSignal& stop) {

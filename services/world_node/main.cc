@@ -51,7 +51,7 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario,
     NewFlags back = admin.ToComeBack();
     back["--resume"] = HoldText("resume", ToBytes({SessionId{}, admin.Order(), std::nullopt}));
     back["--go-on-from"] = HoldText("run", loop.State());
-    return {0, back};
+    return WithoutLostMemory({0, back}, link.SharedMemoryIsGone());
   }
   // To stop when asked to is no failure.
   return {end == WorldEnd::kPassed || stop.IsSet() ? 0 : 1, {}};

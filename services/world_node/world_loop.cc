@@ -108,7 +108,7 @@ bool WorldLoop::HasLostSharedMemory() {
   if (now < next_memory_check_) return false;
   next_memory_check_ = now + kMemoryCheckEvery;
   if (!link_.SharedMemoryIsGone()) return false;
-  LogError("its shared memory was deleted, newcomers cannot receive it: starts itself again");
+  LogError("its shared memory was deleted, newcomers cannot receive it: starts itself again, without");
   return true;
 }
 

@@ -23,7 +23,15 @@ struct LinkOptions {
   // Overrides the profile set's discovery; none: as the set says.
   std::vector<DiscoveryServer> discovery_servers = {};
   bool hears_all_bodies = false;  // observers: truth of the whole fleet
+  // Of the profile set: only UDP is left. Set once the files of shared memory were deleted: the library
+  // removes files by name as participants end, whoever has made them anew, so new ones may go again.
+  bool leaves_out_shared_memory = false;
 };
+
+inline LinkOptions WithoutSharedMemory(LinkOptions options) {
+  options.leaves_out_shared_memory = true;
+  return options;
+}
 
 inline LinkOptions OfAllBodies(LinkOptions options) {
   options.hears_all_bodies = true;

@@ -1,6 +1,6 @@
 // Whether the shared memory that this process sends through is still in the file system. Whoever has it
 // open is sent to as before once the file was deleted; whoever comes later finds no file, and is never
-// heard: the library makes none again. Only a new participant does.
+// heard: the library makes none again.
 #pragma once
 
 #include <string>
