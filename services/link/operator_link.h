@@ -33,9 +33,10 @@ class OperatorLink {
   bool Reaches(VehicleId vehicle) const;
   // False if the library refused the order. It was sought, and is reached.
   bool Send(const AdminRequest& order);
-  // Everything that came since the last call. Where its shared memory was deleted it makes its participant
-  // anew, as ObserverLink::Take: orders that are not answered yet are lost. With a key, a refusal may come without a seal: of a
-  // service that has another key, or finds the order's number used. Its seal is then 0.
+  // Everything that came since the last call. Where its shared memory was deleted it makes its
+  // participant anew, as ObserverLink::Take: orders that are not answered yet are lost. With a key,
+  // a refusal may come without a seal: of a service that has another key, or finds the order's
+  // number used. Its seal is then 0.
   std::vector<AdminAnswer> Take();
   // Answers that were not believed: of a participant that does not speak for the vehicle, of ids
   // too many, or without the seal of the key; and the first few since the last call.

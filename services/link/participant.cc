@@ -78,8 +78,9 @@ bool IsSharedMemory(const std::shared_ptr<transport::TransportDescriptorInterfac
   return dynamic_cast<transport::SharedMemTransportDescriptor*>(named.get()) != nullptr;
 }
 
-// UDP, and in addition shared memory if the profile names it and the options do not leave it out: the
-// profile says how, the options say on which interfaces. Impaired if `impairer` is, and filtered behind that.
+// UDP, and in addition shared memory if the profile names it and the options do not leave it out:
+// the profile says how, the options say on which interfaces. Impaired if `impairer` is, and
+// filtered behind that.
 void SetTransport(dds::DomainParticipantQos& qos, const LinkOptions& options, bool filtered,
                   const std::shared_ptr<Impairer>& impairer) {
   auto& list = qos.transport().user_transports;

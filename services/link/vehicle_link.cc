@@ -5,9 +5,9 @@
 
 #include "services/link/convert/convert.h"
 #include "services/link/fastdds/interface_watch.h"
-#include "services/link/fastdds/shared_memory_watch.h"
 #include "services/link/fastdds/library_log.h"
 #include "services/link/fastdds/reader_events.h"
+#include "services/link/fastdds/shared_memory_watch.h"
 #include "services/link/fastdds/writer_names.h"
 #include "services/link/impairment/impairer.h"
 #include "services/link/inbox/arrival_log.h"

@@ -20,7 +20,8 @@ Remedy ReceptionMonitor::Update(SteadyTime now, bool scan) {
   if (now < next_check_) return Remedy::kNone;
   next_check_ = now + kCheckEvery;
   if (link_.SharedMemoryIsGone()) {
-    LogError("its shared memory was deleted, newcomers cannot receive it: starts itself again, without");
+    LogError(
+        "its shared memory was deleted, newcomers cannot receive it: starts itself again, without");
     return Remedy::kNewParticipant;
   }
   if (now - last_scan_ < kSilence) return Remedy::kNone;

@@ -105,10 +105,11 @@ WorldEnd WorldLoop::Drive(const StopSignal& stop) {
 
 bool WorldLoop::HasLostSharedMemory() {
   const SteadyTime now = SteadyNow();
-  if (now < next_memory_check_) return false;
+  if (options_.lockstep || now < next_memory_check_) return false;
   next_memory_check_ = now + kMemoryCheckEvery;
   if (!link_.SharedMemoryIsGone()) return false;
-  LogError("its shared memory was deleted, newcomers cannot receive it: starts itself again, without");
+  LogError(
+      "its shared memory was deleted, newcomers cannot receive it: starts itself again, without");
   return true;
 }
 

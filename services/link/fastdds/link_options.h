@@ -23,8 +23,9 @@ struct LinkOptions {
   // Overrides the profile set's discovery; none: as the set says.
   std::vector<DiscoveryServer> discovery_servers = {};
   bool hears_all_bodies = false;  // observers: truth of the whole fleet
-  // Of the profile set: only UDP is left. Set once the files of shared memory were deleted: the library
-  // removes files by name as participants end, whoever has made them anew, so new ones may go again.
+  // Of the profile set: only UDP is left. Set once the files of shared memory were deleted: the
+  // library removes files by name as participants end, whoever has made them anew, so new ones may
+  // go again.
   bool leaves_out_shared_memory = false;
 };
 

@@ -9,8 +9,8 @@
 namespace giveway::link {
 namespace {
 
-// Fast DDS 2 names its files fastrtps_, 3 fastdds_; a segment then has sixteen hexadecimal digits. Its maker
-// alone keeps the lock, which is its name and _el, open.
+// Fast DDS 2 names its files fastrtps_, 3 fastdds_; a segment then has sixteen hexadecimal digits.
+// Its maker alone keeps the lock, which is its name and _el, open.
 constexpr std::string_view kStarts[] = {"/dev/shm/fastrtps_", "/dev/shm/fastdds_"};
 constexpr std::string_view kEnd = "_el (deleted)";  // as Linux names what was deleted
 constexpr std::size_t kDigits = 16;
