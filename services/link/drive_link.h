@@ -88,7 +88,8 @@ class DriveLink {
   // What changed of the network interfaces since this link was made, if it can no longer receive
   // for that reason; else empty. Throws LinkError.
   virtual std::string InterfaceChange() const = 0;
-  // Whether whoever comes from now on cannot receive this vehicle: its shared memory was deleted.
+  // Whether its shared memory was deleted: participants that start later do not receive this
+  // vehicle.
   virtual bool SharedMemoryIsGone() const = 0;
   // Whether the writer of this vehicle's ranges is matched and alive, whatever comes of its
   // samples.

@@ -48,9 +48,9 @@ class ObserverLink {
   ObserverLink& operator=(const ObserverLink&) = delete;
 
   // Everything that came since the last call: events in order, the other kinds in order of arrival
-  // for each vehicle (roster: session; signals: head). Where its shared memory was deleted it makes
-  // its participant anew, without: nobody who comes later would be received. That takes a tenth of
-  // a second. Throws LinkError where it cannot.
+  // for each vehicle (roster: session; signals: head). Where its shared memory was deleted it
+  // replaces its participant by one over UDP, which takes a tenth of a second. Throws LinkError
+  // where it cannot.
   Observed Take();
 
  private:

@@ -33,8 +33,8 @@ class OperatorLink {
   bool Reaches(VehicleId vehicle) const;
   // False if the library refused the order. It was sought, and is reached.
   bool Send(const AdminRequest& order);
-  // Everything that came since the last call. Where its shared memory was deleted it makes its
-  // participant anew, as ObserverLink::Take: orders that are not answered yet are lost. With a key,
+  // Everything that came since the last call. Where its shared memory was deleted it replaces its
+  // participant, as ObserverLink::Take: orders that are not answered yet are lost. With a key,
   // a refusal may come without a seal: of a service that has another key, or finds the order's
   // number used. Its seal is then 0.
   std::vector<AdminAnswer> Take();

@@ -44,7 +44,7 @@ class RawLink {
   // is closed before all are: the library removes readers of a running participant unsafely.
   void Open(std::size_t topic);
   // Calls take(sample) for all that came since the last call; of one instance in order. Where its
-  // shared memory was deleted it makes its participant anew, as ObserverLink::Take.
+  // shared memory was deleted it replaces its participant, as ObserverLink::Take.
   template <typename TakeSample>
   void Take(TakeSample&& take) {
     Collect();

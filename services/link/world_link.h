@@ -47,7 +47,7 @@ class WorldLink final : public AdminLink {
   std::string ParticipantText() const;
   // One sentence while discovery servers are to be used and none has answered; else empty.
   std::string WhyNoPeerIsFound() const;
-  // Whether whoever comes from now on cannot receive this world: its shared memory was deleted.
+  // Whether its shared memory was deleted: participants that start later do not receive this world.
   bool SharedMemoryIsGone() const;
 
   // Makes the writers of the vehicle's ranges and of the sensors its profile is fitted with.

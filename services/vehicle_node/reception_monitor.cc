@@ -21,7 +21,8 @@ Remedy ReceptionMonitor::Update(SteadyTime now, bool scan) {
   next_check_ = now + kCheckEvery;
   if (link_.SharedMemoryIsGone()) {
     LogError(
-        "its shared memory was deleted, newcomers cannot receive it: starts itself again, without");
+        "its shared memory was deleted, newcomers cannot receive it: restarts itself over UDP "
+        "alone");
     return Remedy::kNewParticipant;
   }
   if (now - last_scan_ < kSilence) return Remedy::kNone;

@@ -12,7 +12,7 @@ enum class Remedy : std::uint8_t {
   kNone,
   kNewParticipant,  // the world speaks and is not heard, or newcomers cannot hear the vehicle,
                     // whose shared memory was deleted: it restarts itself
-  kNewProcess,  // its interface is another now: it ends, for the restart policy
+  kNewProcess,      // its interface is another now: it ends, for the restart policy
 };
 
 class ReceptionMonitor {

@@ -109,7 +109,7 @@ bool WorldLoop::HasLostSharedMemory() {
   next_memory_check_ = now + kMemoryCheckEvery;
   if (!link_.SharedMemoryIsGone()) return false;
   LogError(
-      "its shared memory was deleted, newcomers cannot receive it: starts itself again, without");
+      "its shared memory was deleted, newcomers cannot receive it: restarts itself over UDP alone");
   return true;
 }
 

@@ -47,7 +47,7 @@ end_of_background() {
   rm -f "$1" "$1.log"
 }
 
-# It takes a given time, and only computes: at idle priority it holds up nobody who waits for a deadline.
+# It takes a given time, and only computes: at idle priority it delays no test that waits for a deadline.
 fuzz_meanwhile() {
   chrt --idle --pid 0 "$BASHPID"
   run_of fuzz

@@ -52,7 +52,7 @@ TEST(SharedMemoryWatch, ALinkOverUdpHasNoneToLose) {
   EXPECT_FALSE(link::SharedMemoryIsGone());
 }
 
-TEST(DeletedSharedMemory, AnObserverThatLostItHearsAVehicleThatComesLater) {
+TEST(DeletedSharedMemory, AnObserverThatLostItReceivesAVehicleThatStartsLater) {
   const DomainLock domain;
   link::ObserverLink observer(OptionsInSharedMemory(domain));
   EXPECT_FALSE(link::SharedMemoryIsGone());
@@ -63,7 +63,7 @@ TEST(DeletedSharedMemory, AnObserverThatLostItHearsAVehicleThatComesLater) {
   EXPECT_FALSE(link::SharedMemoryIsGone());
 }
 
-TEST(DeletedSharedMemory, ARecorderThatLostItHearsAVehicleThatComesLater) {
+TEST(DeletedSharedMemory, ARecorderThatLostItReceivesAVehicleThatStartsLater) {
   const DomainLock domain;
   link::RawLink recorder(OptionsInSharedMemory(domain), {kBeacons});
   DeleteOwnSharedMemory();

@@ -23,9 +23,8 @@ struct LinkOptions {
   // Overrides the profile set's discovery; none: as the set says.
   std::vector<DiscoveryServer> discovery_servers = {};
   bool hears_all_bodies = false;  // observers: truth of the whole fleet
-  // Of the profile set: only UDP is left. Set once the files of shared memory were deleted: the
-  // library removes files by name as participants end, whoever has made them anew, so new ones may
-  // go again.
+  // Only the profile set's UDP is left. Set once the files of shared memory were deleted: the
+  // library removes files by name as participants end, and would remove new files of the same name.
   bool leaves_out_shared_memory = false;
 };
 

@@ -195,6 +195,16 @@ TEST(Flags, OnlyAVehicleBeaconsWithoutAPartitionAndOnlyIfAsked) {
   EXPECT_TRUE(std::get<ServiceFlags>(Vehicle(least)).partition_free);
 }
 
+TEST(Flags, LeaveOutSharedMemoryAndNoOtherTransport) {
+  std::vector<const char*> words{"--scenario", "s", "--domain", "1"};
+  EXPECT_FALSE(std::get<ServiceFlags>(World(words)).leaves_out_shared_memory);
+  words.insert(words.end(), {"--leave-out", "shared_memory"});
+  EXPECT_TRUE(std::get<ServiceFlags>(Vehicle(words)).leaves_out_shared_memory);
+  EXPECT_TRUE(std::get<ServiceFlags>(World(words)).leaves_out_shared_memory);
+  words.back() = "udp";
+  EXPECT_THAT(Refusal(words), HasSubstr("--leave-out"));
+}
+
 TEST(Flags, OnlyAVehicleOutlivesItsWorldAndOnlyIfAsked) {
   const std::vector<const char*> least{"--scenario", "s", "--domain", "1"};
   EXPECT_FALSE(std::get<ServiceFlags>(Vehicle(least)).stay);
