@@ -219,6 +219,8 @@ void Spoof(const Target& target, UdpSender* sender) {
   if (!impostor.KnowsEnough() || target.listener == nullptr) return;
   const auto begun = std::chrono::steady_clock::now();
   for (std::size_t turn = 0; !IsOver(begun, target); ++turn) {
+    // First: at the fleet's own rate the number would be one that was sent meanwhile, each time.
+    sender->WaitForTurn();
     while (const auto packet = target.listener->Take(std::chrono::milliseconds(0))) {
       if (packet->from_port != sender->Port()) impostor.Follow(*packet);
     }

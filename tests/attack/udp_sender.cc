@@ -40,10 +40,14 @@ std::uint16_t UdpSender::Port() const {
 
 UdpSender::~UdpSender() { close(socket_); }
 
-void UdpSender::Send(std::span<const std::uint8_t> bytes, in_addr to, std::uint16_t port) {
+void UdpSender::WaitForTurn() {
   // After a delay the sender catches up with a little of it only.
   due_ = std::max(due_, std::chrono::steady_clock::now() - kCatchUp);
   std::this_thread::sleep_until(due_);
+}
+
+void UdpSender::Send(std::span<const std::uint8_t> bytes, in_addr to, std::uint16_t port) {
+  WaitForTurn();
   due_ += apart_;
   sockaddr_in address{};
   address.sin_family = AF_INET;

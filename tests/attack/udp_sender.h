@@ -19,7 +19,9 @@ class UdpSender {
   UdpSender(const UdpSender&) = delete;
   UdpSender& operator=(const UdpSender&) = delete;
 
-  // Waits for its turn. What the system does not take is lost, as on any network.
+  // Until the next packet is due. For an attack whose packet depends on what was heard up to then.
+  void WaitForTurn();
+  // After WaitForTurn(). What the system does not take is lost, as on any network.
   void Send(std::span<const std::uint8_t> bytes, in_addr to, std::uint16_t port);
   // From any thread.
   std::uint64_t Sent() const { return sent_; }
