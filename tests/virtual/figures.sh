@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Sourced by bounds.sh and mutants.sh: the figures of a virtual run, and which of them are outside the bounds of
 # bounds.txt.
 

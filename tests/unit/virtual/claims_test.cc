@@ -71,14 +71,14 @@ TEST_F(ClaimsTest, OneThatBrakesOnAnArcLeavesThem) {
   EXPECT_EQ(left, 1U);
 }
 
-// Faster than it says by so little that no claim of the last quarter of a second shows it: peers
-// that lost all later beacons keep clear of one for a second, and it is beyond that one's end.
+// Faster than it says, but within what it claims for being free to turn, until a second is over:
+// peers that lost all later beacons keep clear of a claim for that long.
 TEST_F(ClaimsTest, AnOldClaimHoldsAsLongAsPeersKeepClearOfIt) {
   Claims claims(scenario_);
   std::size_t left = 0;
-  for (int i = 0; i < 12; ++i) left += Drive(0.3, 0.021, &claims);
+  for (int i = 0; i < 18; ++i) left += Drive(0.3, 0.043, &claims);
   EXPECT_EQ(left, 0U);
-  for (int i = 0; i < 10; ++i) left += Drive(0.3, 0.021, &claims);
+  for (int i = 0; i < 6; ++i) left += Drive(0.3, 0.043, &claims);
   EXPECT_EQ(left, 1U);
 }
 
