@@ -1,7 +1,7 @@
 // What a run comes to beyond held or broken: what its vehicles spent their time on, how often they
-// stopped, and how often they took back whom they give way to. Counts; judges nothing. A single run
-// says little by it; over many seeds its means hardly depend on what the radio loses, so that a
-// bound on them shows defects that no tick shows (tests/virtual/bounds.txt).
+// stopped, and how often they took back that they give way to a peer. Counts; judges nothing. A
+// single run says little by it; over many seeds its means hardly depend on what the radio loses, so
+// that a bound on them shows defects that no tick shows (tests/virtual/bounds.txt).
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace giveway::sim {
 
 inline constexpr std::size_t kRuleCount = static_cast<std::size_t>(kLastRule) + 1;
 
-// Whole numbers, so that the sum over runs does not depend on the order in which they end.
+// Integers, so that the sum over runs does not depend on the order in which they end.
 struct TrafficFigures {
   // By rule: how long vehicles that had not arrived drove or stood by it.
   std::array<std::uint64_t, kRuleCount> by_rule_ns{};
