@@ -219,9 +219,10 @@ void AddJudgeFlag(CLI::App* verb, CaseOptions* made_by) {
               }
             }
           },
-          "Invariants that are else only counted fail a run too: clearance, claim, delay, or all")
+          "Invariants that are else only counted fail a run too: clearance, claim, delay, "
+          "yielding, or all")
       ->delimiter(',')
-      ->check(CLI::IsMember({"clearance", "claim", "delay", "all"}));
+      ->check(CLI::IsMember({"clearance", "claim", "delay", "yielding", "all"}));
 }
 
 void AddFaultFlags(CLI::App* verb, CaseOptions* made_by) {
