@@ -4,7 +4,7 @@
 
 # A figure may be so much outside what was recorded, as a share of it or by itself: ten times what
 # the draws of the radio make of it.
-readonly figures_share=0.01 figures_by=0.01
+readonly figures_share=0.02 figures_by=0.03
 
 # figures: of the JSON of `fleetctl virtual` on stdin, "NAME VALUE" a line: means over all vehicles.
 figures() {

@@ -25,6 +25,7 @@ class YieldingTest : public testing::Test {
       now_[i].present = true;
       now_[i].lives = true;
       now_[i].beacon = &beacons_[i];
+      now_[i].order = {.speed_bucket = i + 1, .vehicle = VehicleId{i + 1}};
     }
     now_[0].decision = {.rule = Rule::kGiveWay, .peer = VehicleId{2}};
     now_[1].decision = {.rule = Rule::kCruise};
