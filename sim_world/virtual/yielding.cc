@@ -10,6 +10,9 @@ namespace {
 
 // A vehicle that stops just before the path of another is not in it.
 constexpr double kOverlaps_m = 0.05;
+// Of two that meet head on, or drive one behind the other, the second stands where it is and the
+// first steers round it: of paths at less than this angle, by its sine (30 degrees).
+constexpr double kAcross = 0.5;
 
 bool GivesWay(const Observed& now) {
   const Rule rule = now.decision.rule;
@@ -20,14 +23,19 @@ bool GivesWay(const Observed& now) {
 
 bool WantsOn(const Observed& peer) {
   return peer.present && peer.lives && !peer.arrived && peer.beacon != nullptr &&
-         !StaysPut(peer.decision.rule);
+         !StaysPut(peer.decision.rule) && peer.decision.rule != Rule::kSteerRound;
+}
+
+bool Crosses(Vec2 own_path, Vec2 peer_path) {
+  const double product = Norm(own_path) * Norm(peer_path);
+  return Magnitude(Cross(own_path, peer_path)) > kAcross * product;
 }
 
 // Whether the peer would touch it on its way to where it says that it drives to.
 bool IsInPath(const Observed& now, const Observed& peer) {
   const Vec2 path = peer.beacon->toward_world - peer.position_world;
   const double length_m = Norm(path);
-  if (length_m <= 0) return false;
+  if (length_m <= 0 || !Crosses(now.beacon->toward_world - now.position_world, path)) return false;
   const Vec2 direction = (1 / length_m) * path;
   const Vec2 offset = now.position_world - peer.position_world;
   const double along_m = Dot(offset, direction);

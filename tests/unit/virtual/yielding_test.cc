@@ -1,4 +1,4 @@
-// Who stands in the path of the one it gives way to, and who beside it.
+// Which vehicle stands in the path of the one it gives way to.
 #include "sim_world/virtual/yielding.h"
 
 #include <gtest/gtest.h>
@@ -30,6 +30,7 @@ class YieldingTest : public testing::Test {
     now_[0].decision = {.rule = Rule::kGiveWay, .peer = VehicleId{2}};
     now_[1].decision = {.rule = Rule::kCruise};
     now_[1].position_world = {-2, 0};
+    beacons_[0].toward_world = {0, 5};
     beacons_[1].toward_world = {3, 0};
   }
   std::size_t Stand(int ticks) {
@@ -50,7 +51,7 @@ TEST_F(YieldingTest, OneInThePathIsCountedOnceAfterItsTime) {
   EXPECT_EQ(Stand(30 * kSecond), 1U);
 }
 
-TEST_F(YieldingTest, OneBesideThePathIsNot) {
+TEST_F(YieldingTest, OneNextToThePathIsNot) {
   now_[0].position_world = {0, 0.5};
   EXPECT_EQ(Stand(5 * kSecond), 0U);
   now_[0].position_world = {0, 0.4};  // the bodies are 0.5 m in sum
@@ -82,6 +83,16 @@ TEST_F(YieldingTest, NorBeforeOneThatWillNotCome) {
   EXPECT_EQ(Stand(5 * kSecond), 0U);
   now_[1].arrived = false;
   now_[1].beacon = nullptr;
+  EXPECT_EQ(Stand(5 * kSecond), 0U);
+}
+
+// The other steers round it: what two that meet head on agree on.
+TEST_F(YieldingTest, NorOneThatIsMetHeadOnOrPassed) {
+  beacons_[0].toward_world = {-5, 0.5};
+  EXPECT_EQ(Stand(5 * kSecond), 0U);
+  beacons_[0].toward_world = {-5, 4};
+  EXPECT_EQ(Stand(5 * kSecond), 1U);
+  now_[1].decision.rule = Rule::kSteerRound;
   EXPECT_EQ(Stand(5 * kSecond), 0U);
 }
 
