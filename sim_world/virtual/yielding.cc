@@ -31,7 +31,7 @@ bool Crosses(Vec2 own_path, Vec2 peer_path) {
   return Magnitude(Cross(own_path, peer_path)) > kAcross * product;
 }
 
-// Whether the peer would touch it on its way to where it says that it drives to.
+// Whether the peer would touch it on its path to where it says that it drives to.
 bool IsInPath(const Observed& now, const Observed& peer) {
   const Vec2 path = peer.beacon->toward_world - peer.position_world;
   const double length_m = Norm(path);

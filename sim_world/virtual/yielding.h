@@ -1,8 +1,7 @@
 // Which vehicles stand in the path of the very vehicle that they give way to: their halt clears
-// nothing, the other cannot pass. By the truth of both bodies, and by where the other says that it
-// drives to, where their paths cross; one that it meets head on steers round it. A vehicle that
-// notices so drives out of the path, so that only one that stays there
-// for some seconds is counted.
+// nothing, the other cannot pass. By the truth of both bodies, and by where each says that it
+// drives to: their paths cross, for one that it meets head on steers round it. A vehicle that
+// notices drives out of the path, so that only one that stays there for some seconds is counted.
 #pragma once
 
 #include <cstdint>
