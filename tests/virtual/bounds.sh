@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Whether fleets spend their time as they did when bounds.txt was recorded: in each of its runs the mean delay,
 # the stops, what is taken back, and the time by each rule, over hundreds of seeds. Virtual time is
-# deterministic, and what the radio loses moves these means by about a thousandth: what moves them by a
-# hundredth is another brain. That may be a better one; then record it, and say in the commit what it gained.
+# deterministic, and what the radio loses moves most of these means by a thousandth or two: what moves one out of
+# its bounds (figures.sh) is another brain. That may be a better one; record it, and say in the commit why.
 # What no single tick shows is seen here: a vehicle that stops too soon, or drives on too late.
 # With --record bounds.txt gets the least and the most of each figure without loss and under --draws draws of
 # 1 % of loss (of a run with a loss of its own, of that). A line "ok" or "FAILED" each.

@@ -2,8 +2,8 @@
 # Sourced by bounds.sh and mutants.sh: the figures of a virtual run, and which of them are outside the bounds of
 # bounds.txt.
 
-# A figure may be so much outside what was recorded, as a share of it or by itself: ten times what
-# the draws of the radio make of it.
+# A figure may be outside what was recorded by the larger of a share of it and a number. Half as much was not
+# enough for one draw of the radio in ten.
 readonly figures_share=0.02 figures_by=0.03
 
 # figures: of the JSON of `fleetctl virtual` on stdin, "NAME VALUE" a line: means over all vehicles.

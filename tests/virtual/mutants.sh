@@ -5,7 +5,7 @@
 # course of events would have shown. What one line of defence hides shows without it: a run of the base
 # "agreement" is without claims and echoes, as in defects.sh. What costs or saves no more than time breaks no
 # invariant: a defect that survives these runs is detected where a mean of bounds.txt leaves its bounds, which
-# the sound brain keeps whatever the radio draws. A line "detected" or "survived" each, and the sums.
+# the sound brain kept in every draw of the radio that was tried. A line "detected" or "survived" each, and the sums.
 # Exit code 0: at least --least of them were detected; 1: fewer; 2: could not run.
 # Usage: mutants.sh [--least N] [--jobs J] [NAME ...]
 set -euo pipefail
