@@ -19,7 +19,7 @@ bounds=$here/bounds.txt
 record=false draws=5 jobs=$(nproc)
 
 usage() {
-  sed -n '11s/^# //p' "${BASH_SOURCE[0]}" >&2
+  sed -n '10s/^# //p' "${BASH_SOURCE[0]}" >&2
   exit 2
 }
 

@@ -15,19 +15,22 @@ expect() {
 
 readonly report='{"verdict":"failed","vehicles":8,"arrived":6,"delay_s":{"mean":2.5},"traffic":{"by_rule":
   [{"rule":"cruise","mean_s":30}],"stops":0.5,"taken_back":2}}'
-expect "the figures of a report" $'delay_s 2.5\narrived 0.75\nstops 0.5\ntaken_back 2\ncruise_s 30' "$(figures <<<"$report")"
+expect "the figures of a report" $'delay_s 2.5\narrived 0.75\nstops 0.5\ntaken_back 2\ncruise_s 30' \
+  "$(figures <<<"$report")"
 ! figures <<<'{"verdict":"not_run"}' || expect "a run that was not run" "an error" "figures"
 
 file=$(mktemp)
 trap 'rm -f "$file"' EXIT
-printf '# of a test\n\nrun swarm --seeds 1..2\ndelay_s 10 20\n\nrun swarm --seeds 1..20\ndelay_s 30 40\nstops 1 1\n' >"$file"
+printf '%s\n' '# of a test' '' 'run swarm --seeds 1..2' 'delay_s 10 20' '' 'run swarm --seeds 1..20' \
+  'delay_s 30 40' 'stops 1 1' >"$file"
 expect "the bounds of one run" "delay_s 10 20" "$(bounds_of "$file" "swarm --seeds 1..2")"
 expect "no bounds of a run that is not there" "" "$(bounds_of "$file" "swarm")"
 
 readonly bounds=$'delay_s 10 20\nstops 0.1 0.1\nobstacle_s 0 0.5'
-expect "inside, by a hundredth" "" "$(outside "$bounds" $'delay_s 20.19\nstops 0.091\nobstacle_s 0.2')"
-expect "more" "delay_s 20.210, not 10.000..20.000" "$(outside "$bounds" $'delay_s 20.21\nstops 0.1\nobstacle_s 0')"
-expect "less" "delay_s 9.700, not 10.000..20.000" "$(outside "$bounds" $'delay_s 9.7\nstops 0.1')"
+expect "inside, by two hundredths" "" "$(outside "$bounds" $'delay_s 20.39\nstops 0.071\nobstacle_s 0.2')"
+expect "more" "delay_s 20.410, not 10.000..20.000" "$(outside "$bounds" $'delay_s 20.41\nstops 0.1\nobstacle_s 0')"
+expect "less" "delay_s 9.590, not 10.000..20.000" "$(outside "$bounds" $'delay_s 9.59\nstops 0.1')"
 expect "one that is left out is 0" "stops 0.000, not 0.100..0.100" "$(outside "$bounds" 'delay_s 15')"
-expect "a new one was 0" "signal_s 0.100, not 0.000..0.000" "$(outside "$bounds" $'delay_s 15\nstops 0.1\nsignal_s 0.1')"
+expect "a new one was 0" "signal_s 0.100, not 0.000..0.000" \
+  "$(outside "$bounds" $'delay_s 15\nstops 0.1\nsignal_s 0.1')"
 exit "$failed"

@@ -19,7 +19,7 @@ source "$here/figures.sh"
 least=0 jobs=$(nproc)
 
 usage() {
-  sed -n '11s/^# //p' "${BASH_SOURCE[0]}" >&2
+  sed -n '10s/^# //p' "${BASH_SOURCE[0]}" >&2
   exit 2
 }
 
