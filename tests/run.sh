@@ -330,12 +330,13 @@ stage_virtual() {
       bash tests/virtual/campaign.sh --generators "$generator" --seeds "$seeds"
   done
   check "mixed fleets are drawn and judged" bash tests/virtual/table.sh 1 swarm parking
+  check "fleets spend their time as recorded" bash tests/virtual/bounds.sh
 }
 stage_defects() {
   prepare release fleetctl fleetctl_with_defects && check_lines bash tests/virtual/defects.sh
   $full || return 0
   prepare release fleetctl_mutants
-  check "defects chosen at random are detected" bash tests/virtual/mutants.sh --least 14
+  check "defects chosen at random are detected" bash tests/virtual/mutants.sh --least 27
 }
 
 stage_model() {

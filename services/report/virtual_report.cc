@@ -21,6 +21,16 @@ schema::Report::Verdict SchemaOf(Verdict verdict) {
 
 double Rounded(double value) { return std::round(value * 1e6) / 1e6; }
 
+void SetTraffic(const TrafficReport& traffic, schema::Traffic* message) {
+  for (const auto& [rule, mean_s] : traffic.by_rule_s) {
+    schema::RuleTime& time = *message->add_by_rule();
+    time.set_rule(rule);
+    time.set_mean_s(Rounded(mean_s));
+  }
+  message->set_stops(Rounded(traffic.stops));
+  message->set_taken_back(Rounded(traffic.taken_back));
+}
+
 schema::VirtualReport ToSchema(const VirtualReport& report) {
   schema::VirtualReport message;
   message.set_scenario(WellFormed(report.scenario));
@@ -49,6 +59,7 @@ schema::VirtualReport ToSchema(const VirtualReport& report) {
   if (report.delay_p99_s) message.mutable_delay_s()->set_p99(Rounded(*report.delay_p99_s));
   if (report.delay_mean_s) message.mutable_delay_s()->set_mean(Rounded(*report.delay_mean_s));
   if (report.min_separation_m) message.set_min_separation_m(Rounded(*report.min_separation_m));
+  SetTraffic(report.traffic, message.mutable_traffic());
   SetTrust(report.trust, message.mutable_trust());
   message.set_hash(report.hash);
   for (const std::uint32_t seed : report.failing_seeds) message.add_failing_seeds(seed);

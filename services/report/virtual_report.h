@@ -5,11 +5,19 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "services/report/report.h"
 
 namespace giveway {
+
+// Means over all vehicles, until they arrived.
+struct TrafficReport {
+  std::vector<std::pair<std::string, double>> by_rule_s;  // by its name; no rule without time
+  double stops = 0;
+  double taken_back = 0;
+};
 
 // Field names, presence and meaning are those of the JSON object; see idl/report.proto.
 struct VirtualReport {
@@ -30,6 +38,7 @@ struct VirtualReport {
   std::optional<double> delay_p99_s;
   std::optional<double> delay_mean_s;
   std::optional<double> min_separation_m;
+  TrafficReport traffic;
   TrustCounters trust;
   std::string hash;
   std::vector<std::uint32_t> failing_seeds;

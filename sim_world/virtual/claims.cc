@@ -27,10 +27,11 @@ double SlackOf(const Beacon& said) {
 }  // namespace
 
 Claims::Claims(const Scenario& scenario) : dt_s_(Seconds(scenario.tick_period)) {
-  oldest_ticks_ = 2;
+  const auto lasts = static_cast<std::uint32_t>(kClaimLasts_s / dt_s_);
+  oldest_ticks_ = std::clamp<std::uint32_t>(lasts, 2, kKept - 1);
   for (const VehicleOptions& options : scenario.vehicles) {
     const std::uint32_t fresh = TicksCovering(options.beacon_age_limit, scenario.tick_period);
-    oldest_ticks_ = std::clamp<std::uint32_t>(fresh + 1, oldest_ticks_, kKept - 1);
+    fresh_ticks_ = std::clamp<std::uint32_t>(fresh + 1, 2, oldest_ticks_);
     tracks_.push_back({.deceleration_m_s2 = options.profile.deceleration_m_s2,
                        .reaction_s = 2 * dt_s_ + Seconds(options.sonar_refresh)});
   }
@@ -51,6 +52,9 @@ const Beacon* Claims::SaidBefore(Tick tick, std::uint32_t ago, const Track& trac
   const Beacon& said = track.said[(Number(tick) - ago) % kKept];
   return said.tick != kNoTick && TicksBetween(said.tick, tick) == ago ? &said : nullptr;
 }
+
+// Of old beacons not every one: one that leaves their claims does so for some ticks.
+std::uint32_t Claims::Step(std::uint32_t ago) const { return ago < fresh_ticks_ ? 1 : 3; }
 
 bool Claims::IsInside(Tick tick, const Beacon& said, const Observed& now,
                       const Track& track) const {
@@ -90,7 +94,7 @@ std::span<const std::uint32_t> Claims::Observe(Tick tick, std::span<const Observ
     bool inside = !now.present || StaysWhileBraking(tick, now, &track);
     // A beacon is received a tick after it is sent, and applies to the motion in the tick after
     // that.
-    for (std::uint32_t ago = 2; ago <= oldest_ticks_ && now.present && inside; ++ago) {
+    for (std::uint32_t ago = 2; ago <= oldest_ticks_ && now.present && inside; ago += Step(ago)) {
       const Beacon* said = SaidBefore(tick, ago, track);
       inside = said == nullptr || IsInside(tick, *said, now, track);
     }

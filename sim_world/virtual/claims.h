@@ -27,9 +27,8 @@ class Claims {
   std::span<const std::uint32_t> Observe(Tick tick, std::span<const Observed> vehicles);
 
  private:
-  // A beacon is heard for so many ticks at most; older ones are not fresh, and no claim rests on
-  // them alone.
-  static constexpr std::size_t kKept = 8;
+  // As many beacons as peers keep clear of where all later ones are lost, at the usual 20 a second.
+  static constexpr std::size_t kKept = 24;
 
   struct Track {
     double deceleration_m_s2 = 0;
@@ -46,8 +45,11 @@ class Claims {
   bool StaysWhileBraking(Tick tick, const Observed& now, Track* track) const;
   bool IsInside(Tick tick, const Beacon& said, const Observed& now, const Track& track) const;
 
+  std::uint32_t Step(std::uint32_t ago) const;
+
   double dt_s_;
-  std::uint32_t oldest_ticks_;
+  std::uint32_t oldest_ticks_;     // no vehicle keeps clear of an older claim
+  std::uint32_t fresh_ticks_ = 2;  // every claim up to this age is judged
   std::vector<Track> tracks_;
   std::vector<std::uint32_t> left_;
 };

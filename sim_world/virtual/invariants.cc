@@ -29,7 +29,7 @@ bool Waits(const Observed& vehicle) {
 std::string_view Name(Invariant invariant) {
   constexpr std::array<std::string_view, kInvariantCount> kNames = {
       "contact", "stale_motion", "wait_cycle", "wait_bound", "all_halted", "order", "arrival",
-      "pose",    "red_light",    "progress",   "clearance",  "claim",      "delay"};
+      "pose",    "red_light",    "progress",   "clearance",  "claim",      "delay", "yielding"};
   return kNames[static_cast<std::size_t>(invariant)];
 }
 
@@ -48,7 +48,8 @@ Invariants::Invariants(const Scenario& scenario, const InvariantLimits& limits)
       red_lights_(scenario),
       progress_(scenario, limits.wedge_s),
       clearance_(scenario, limits.clearance_m),
-      claims_(scenario) {
+      claims_(scenario),
+      yielding_(scenario) {
   GIVEWAY_CHECK(limits.key_age_ticks < kRememberedKeys, limits.key_age_ticks);
   for (const VehicleOptions& options : scenario.vehicles) tracks_.push_back(TrackOf(options));
   for (const auto& group : limits_.one_of) {
@@ -309,6 +310,9 @@ void Invariants::JudgeBodies(Tick tick, double time_s, std::span<const Observed>
   }
   for (const std::uint32_t i : claims_.Observe(tick, vehicles)) {
     Report(Invariant::kClaim, tick, vehicles[i].vehicle);
+  }
+  for (const std::uint32_t i : yielding_.Observe(vehicles)) {
+    Report(Invariant::kYielding, tick, vehicles[i].vehicle, vehicles[i].decision.peer);
   }
   for (std::size_t i = 0; i < vehicles.size(); ++i) {
     Track& track = tracks_[i];

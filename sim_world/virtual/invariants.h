@@ -19,6 +19,7 @@
 #include "sim_world/virtual/observed.h"
 #include "sim_world/virtual/progress.h"
 #include "sim_world/virtual/red_lights.h"
+#include "sim_world/virtual/yielding.h"
 
 namespace giveway::sim {
 
@@ -37,13 +38,14 @@ enum class Invariant : std::uint8_t {
   kClearance,  // no vehicle drives nearer to anything than its margin: clearance.h
   kClaim,      // every body is where its beacons claim that it can be: claims.h
   kDelay,      // every vehicle arrives when it is due
+  kYielding,   // none halts in the path of the one it gives way to: yielding.h
 };
-inline constexpr std::size_t kInvariantCount = 13;
+inline constexpr std::size_t kInvariantCount = 14;
 std::string_view Name(Invariant invariant);
 
 // By number of the invariant.
 using InvariantSet = std::bitset<kInvariantCount>;
-// The invariants that a run must keep to pass; all but the last three.
+// The invariants that a run must keep to pass; all up to kProgress.
 InvariantSet RequiredInvariants();
 
 struct Violation {
@@ -176,6 +178,7 @@ class Invariants {
   Progress progress_;
   Clearance clearance_;
   Claims claims_;
+  Yielding yielding_;
 };
 
 }  // namespace giveway::sim

@@ -134,6 +134,8 @@ VirtualOutcome RunVirtually(const Scenario& scenario, const VirtualPlan& plan,
                             const TickWatcher& watch) {
   VirtualFleet fleet(scenario, plan);
   Invariants invariants(scenario, LimitsFor(scenario, plan));
+  Traffic traffic(scenario.vehicles.size(),
+                  static_cast<std::uint64_t>(scenario.tick_period.count()));
   std::vector<Observed> observed;
   std::vector<GoalTolerance> tolerances;
   for (const VehicleOptions& options : scenario.vehicles) {
@@ -151,6 +153,7 @@ VirtualOutcome RunVirtually(const Scenario& scenario, const VirtualPlan& plan,
     NoteBelievedArrivals(tolerances, &had_arrived, &observed);
     invariants.Observe(fleet.World().Now(), fleet.World().TimeSeconds(), observed,
                        fleet.World().Events(), {fleet.World().Obstacles(), fleet.World().Doors()});
+    traffic.Observe(observed);
     vehicle_ticks += fleet.World().Scans().size();
     if (watch) watch(fleet);
   }
@@ -158,6 +161,7 @@ VirtualOutcome RunVirtually(const Scenario& scenario, const VirtualPlan& plan,
   outcome.arrived =
       static_cast<std::uint32_t>(std::ranges::count(observed, true, &Observed::arrived));
   outcome.vehicle_seconds = static_cast<double>(vehicle_ticks) * Seconds(scenario.tick_period);
+  outcome.traffic = traffic.Figures();
   Conclude(fleet, invariants, &outcome);
   return outcome;
 }

@@ -12,6 +12,7 @@
 #include "services/types/scenario.h"
 #include "sim_world/virtual/due_times.h"
 #include "sim_world/virtual/invariants.h"
+#include "sim_world/virtual/traffic.h"
 #include "sim_world/virtual/virtual_fleet.h"
 #include "sim_world/virtual/virtual_plan.h"
 
@@ -32,6 +33,7 @@ struct VirtualOutcome {
   std::vector<double> delays_s;        // of those that arrived: beyond the free-flow time
   std::optional<double> clear_s;       // the last arrival, if every live vehicle arrived
   std::optional<double> separation_m;  // the closest two shells ever came
+  TrafficFigures traffic;              // of all vehicles
   TrustCounters trust;                 // of all brains, as they ended
   std::uint64_t hash = 0;              // of every command and the last state
 };

@@ -20,6 +20,12 @@ constexpr double kMostTurn_rad_s = 2.5;
 constexpr double kLongest = 2;  // a box's length to its width, at most
 // More draws are not needed for something that succeeds a quarter of the time.
 constexpr int kTries = 200;
+// Sensors of the position: from ceiling cameras to ultra-wideband radio behind shelves.
+constexpr double kMostOften_s = 0.2;
+constexpr double kLeastOften_s = 2;
+constexpr double kFinest_m = 0.02;
+constexpr double kCoarsest_m = 0.1;
+constexpr double kMostDropout = 0.3;
 constexpr std::uint64_t kPoseStream = 0x706f7365;
 
 // As many weak as strong ones, on a logarithmic scale.
@@ -46,6 +52,21 @@ FleetDraw::FleetDraw(const FleetChoice& choice, double most_radius_m, double del
       dice_(dice),
       pose_dice_(Random(dice).Next(), kPoseStream) {
   if (!choice_.tiers.empty()) tier_ = choice_.tiers[dice_.Next() % choice_.tiers.size()];
+  DrawPoseSensor();
+}
+
+// Nothing is drawn unless asked for: then each vehicle's wheels stay as a seed always had them.
+void FleetDraw::DrawPoseSensor() {
+  const double share = choice_.pose_keeping_share;
+  if (share < 1 && pose_dice_.Uniform(0, 1) >= share) {
+    choice_.pose_fix = {};
+    choice_.most_wheel_error = 0;
+    return;
+  }
+  if (!choice_.draws_pose_fix) return;
+  choice_.pose_fix = {.every_s = UniformRatio(kMostOften_s, kLeastOften_s, &pose_dice_),
+                      .sigma_m = UniformRatio(kFinest_m, kCoarsest_m, &pose_dice_),
+                      .dropout = pose_dice_.Uniform(0, kMostDropout)};
 }
 
 SonarModel FleetDraw::Sonar(SonarModel sonar) const {

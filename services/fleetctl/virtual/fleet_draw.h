@@ -1,7 +1,7 @@
 // Realistic fleets: gives each vehicle of a generator another robot model, another sensor tier,
-// wheels that slip and encoders that miscount. Has its own random stream, so that without it every
-// seed keeps its meaning. What is physically impossible, by the checks that refuse it in a scenario
-// file, is drawn again.
+// wheels that slip or are unequal, encoders that miscount, and a sensor of its position. Has its
+// own random stream, so that without it every seed keeps its meaning. What is physically
+// impossible, by the checks that refuse it in a scenario file, is drawn again.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,10 @@ struct FleetChoice {
   double most_slip = 0;
   double least_wheel_error = 0;  // of diameter and axle, either sign: share
   double most_wheel_error = 0;
-  PoseFixModel pose_fix;               // not fitted: the place's own
+  PoseFixModel pose_fix;        // not fitted: the place's own
+  bool draws_pose_fix = false;  // else that one: each seed draws a sensor for all
+  // Of the seeds so many have the wheel errors and the sensor; the others have neither.
+  double pose_keeping_share = 1;
   std::optional<double> pose_limit_m;  // absent: the usual one with fixes or wheel errors
 };
 
@@ -39,6 +42,7 @@ class FleetDraw {
 
  private:
   bool ComesOut(const VehicleOptions& options) const;
+  void DrawPoseSensor();
   void DrawPoseKeeping(RobotModel* profile);
   VehicleOptions Draw(const VehicleOptions& plain);
 

@@ -40,6 +40,20 @@ std::string BrokenNames(const std::vector<BrokenInvariant>& violations,
   return names;
 }
 
+// Means over all vehicles.
+TrafficReport MeansOf(const sim::TrafficFigures& sums, std::uint32_t vehicles) {
+  TrafficReport means;
+  if (vehicles == 0) return means;
+  const auto each = [vehicles](std::uint64_t sum) { return static_cast<double>(sum) / vehicles; };
+  for (std::size_t i = 0; i < sim::kRuleCount; ++i) {
+    if (sums.by_rule_ns[i] == 0) continue;
+    means.by_rule_s.emplace_back(Name(static_cast<Rule>(i)), each(sums.by_rule_ns[i]) / 1e9);
+  }
+  means.stops = each(sums.stops);
+  means.taken_back = each(sums.taken_back);
+  return means;
+}
+
 VirtualReport ReportOf(const BatchTotals& totals, double wall_s, sim::InvariantSet required) {
   VirtualReport report;
   report.runs = totals.runs;
@@ -65,6 +79,7 @@ VirtualReport ReportOf(const BatchTotals& totals, double wall_s, sim::InvariantS
                           static_cast<double>(totals.delays_s.size());
   }
   report.min_separation_m = totals.separation_m;
+  report.traffic = MeansOf(totals.traffic, totals.vehicles);
   report.trust = totals.trust;
   report.hash = fmt::format("{:016x}", totals.hash);
   const std::size_t shown = std::min(totals.failing_seeds.size(), kFailingSeedsShown);

@@ -60,6 +60,7 @@ void BatchTotals::Add(std::uint32_t seed, const sim::VirtualOutcome& outcome,
   if (outcome.separation_m && (!separation_m || *outcome.separation_m < *separation_m)) {
     separation_m = outcome.separation_m;
   }
+  traffic += outcome.traffic;
   trust += outcome.trust;
   hash += OfOneRun(seed, outcome.hash);
   if (missed || !outcome.held) failing_seeds.push_back(seed);

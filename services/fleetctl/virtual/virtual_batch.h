@@ -26,6 +26,7 @@ struct BatchTotals {
   double vehicle_seconds = 0;
   std::vector<double> delays_s;
   std::optional<double> separation_m;
+  sim::TrafficFigures traffic;
   TrustCounters trust;
   std::uint64_t hash = 0;
   // The first violation of each invariant for each seed; of the first seeds, as many as a report

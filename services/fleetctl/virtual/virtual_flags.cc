@@ -119,14 +119,21 @@ void AddFleetFlag(CLI::App* verb, CaseOptions* made_by) {
           "--fleet",
           [made_by](const std::string& fleet) {
             if (fleet == "stock") return;
-            made_by->fleet = {.mixed_robots = true, .tiers = kMixedTiers, .most_slip = 0.02};
+            // Wheels that differ lead a vehicle astray that has no sensor of its position.
+            made_by->fleet = {.mixed_robots = true,
+                              .tiers = kMixedTiers,
+                              .most_slip = 0.02,
+                              .most_wheel_error = 0.02,
+                              .draws_pose_fix = true,
+                              .pose_keeping_share = 0.5};
             made_by->loss_percent = {0, 20};
             made_by->crashes = {0, 1};
             made_by->pauses = {0, 2};
             made_by->restarts = {0, 1};
           },
           "stock, or mixed: short for --robots mixed --tier mixed --slip 0..2 --loss 0..20 "
-          "--crashes 0..1 --pauses 0..2 --restarts 0..1; flags given in addition count")
+          "--crashes 0..1 --pauses 0..2 --restarts 0..1, and in half of the seeds --wheel-error "
+          "0..2 --pose-fix mixed; flags given in addition count")
       ->check(CLI::IsMember({"stock", "mixed"}));
 }
 
@@ -158,7 +165,8 @@ PoseFixModel PoseFixOf(const std::string& text) {
   std::smatch part;
   if (!std::regex_match(text, part, kForm)) {
     throw CLI::ValidationError(
-        "--pose-fix", "must be EVERY_S,SIGMA_M,DROPOUT, as in 1,0.05,0.1, not '" + text + "'");
+        "--pose-fix",
+        "must be mixed, or EVERY_S,SIGMA_M,DROPOUT as in 1,0.05,0.1, not '" + text + "'");
   }
   const auto number = [](const std::string& name, const std::string& value, double least,
                          double most) {
@@ -172,12 +180,20 @@ PoseFixModel PoseFixOf(const std::string& text) {
 void AddPoseFlags(CLI::App* verb, CaseOptions* made_by) {
   verb->add_option_function<std::string>(
       "--pose-fix",
-      [made_by](const std::string& text) { made_by->fleet.pose_fix = PoseFixOf(text); },
-      "EVERY_S,SIGMA_M,DROPOUT: each vehicle has a sensor of its position, as in 1,0.05,0.1");
+      [made_by](const std::string& text) {
+        FleetChoice& fleet = made_by->fleet;
+        fleet.draws_pose_fix = text == "mixed";
+        fleet.pose_keeping_share = 1;
+        fleet.pose_fix = fleet.draws_pose_fix ? PoseFixModel{} : PoseFixOf(text);
+      },
+      "EVERY_S,SIGMA_M,DROPOUT: each vehicle has a sensor of its position, as in 1,0.05,0.1; "
+      "mixed: "
+      "each seed draws them, 0.2 to 2 s, 0.02 to 0.1 m, 0 to 0.3");
   verb->add_option_function<std::string>(
       "--wheel-error",
       [made_by](const std::string& text) {
         const NumberRange percent = NumbersOf("--wheel-error", text, 0, 20);
+        made_by->fleet.pose_keeping_share = 1;
         made_by->fleet.least_wheel_error = percent.low / 100;
         made_by->fleet.most_wheel_error = percent.high / 100;
       },
@@ -203,9 +219,10 @@ void AddJudgeFlag(CLI::App* verb, CaseOptions* made_by) {
               }
             }
           },
-          "Invariants that are else only counted fail a run too: clearance, claim, delay, or all")
+          "Invariants that are else only counted fail a run too: clearance, claim, delay, "
+          "yielding, or all")
       ->delimiter(',')
-      ->check(CLI::IsMember({"clearance", "claim", "delay", "all"}));
+      ->check(CLI::IsMember({"clearance", "claim", "delay", "yielding", "all"}));
 }
 
 void AddFaultFlags(CLI::App* verb, CaseOptions* made_by) {

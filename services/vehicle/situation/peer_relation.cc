@@ -110,9 +110,6 @@ void FindCrossing(RelatedPeer* view, const OwnView& s) {
   view->crossing = conflict;
 }
 
-// After a longer silence nothing can be said of a peer; the ultrasonics and PeerLost take over.
-constexpr double kClaimLasts_s = 1.0;
-
 // How long a peer may have moved freely by the time that the motion decided now has ended.
 double UnknownSeconds(const Beacon& beacon, const OwnView& s) {
   return Seconds((TicksBetween(beacon.tick, s.tick) + 1) * s.options.tick_period);

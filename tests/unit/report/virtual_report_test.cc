@@ -23,6 +23,8 @@ VirtualReport Failed() {
   report.delay_p50_s = 1.25;
   report.delay_p99_s = 9;
   report.delay_mean_s = 2.5;
+  report.traffic = {
+      .by_rule_s = {{"cruise", 26.5}, {"give_way", 1.25}}, .stops = 0.5, .taken_back = 2};
   report.trust = {1, 2, 3, 4, 5};
   report.hash = "00000000000000ff";
   report.failing_seeds = {7, 99};
@@ -32,13 +34,16 @@ VirtualReport Failed() {
 TEST(VirtualReportAsJson, HasTheFieldsOfTheSchemaOnOneLine) {
   const std::string json = ToJson(Failed());
   EXPECT_THAT(json, Not(HasSubstr("\n")));
-  for (const char* part :
-       {R"("scenario":"swarm")", R"("verdict":"failed")", R"("runs":200)", R"("contacts":3)",
-        R"("violations":{"contact":3,)", R"("wait_cycle":0)", R"("vehicle_hours":12.5)",
-        R"("delay_s":{"p50":1.25,"p99":9,"mean":2.5})", R"("hash":"00000000000000ff")",
-        R"("failing_seeds":[7,99])",
-        R"("trust":{"beacon_without_echo":1,"echo_without_beacon":2,"halted_but_closing":3,)"
-        R"("jumps":4,"impossible_speeds":5})"}) {
+  for (
+      const char* part :
+      {R"("scenario":"swarm")", R"("verdict":"failed")", R"("runs":200)", R"("contacts":3)",
+       R"("violations":{"contact":3,)", R"("wait_cycle":0)", R"("vehicle_hours":12.5)",
+       R"("delay_s":{"p50":1.25,"p99":9,"mean":2.5})", R"("hash":"00000000000000ff")",
+       R"("failing_seeds":[7,99])",
+       R"("traffic":{"by_rule":[{"rule":"cruise","mean_s":26.5},{"rule":"give_way","mean_s":1.25}],)"
+       R"("stops":0.5,"taken_back":2})",
+       R"("trust":{"beacon_without_echo":1,"echo_without_beacon":2,"halted_but_closing":3,)"
+       R"("jumps":4,"impossible_speeds":5})"}) {
     EXPECT_THAT(json, HasSubstr(part));
   }
 }

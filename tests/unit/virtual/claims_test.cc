@@ -71,6 +71,17 @@ TEST_F(ClaimsTest, OneThatBrakesOnAnArcLeavesThem) {
   EXPECT_EQ(left, 1U);
 }
 
+// Faster than it says, but within what it claims for being free to turn, until a second is over:
+// peers that lost all later beacons keep clear of a claim for that long.
+TEST_F(ClaimsTest, AnOldClaimHoldsAsLongAsPeersKeepClearOfIt) {
+  Claims claims(scenario_);
+  std::size_t left = 0;
+  for (int i = 0; i < 18; ++i) left += Drive(0.3, 0.043, &claims);
+  EXPECT_EQ(left, 0U);
+  for (int i = 0; i < 6; ++i) left += Drive(0.3, 0.043, &claims);
+  EXPECT_EQ(left, 1U);
+}
+
 TEST_F(ClaimsTest, NothingIsJudgedOfOneThatIsNotHeard) {
   says_ = false;
   Claims claims(scenario_);

@@ -70,6 +70,48 @@ TEST(FleetDraw, FixesAndWheelErrorsLeaveTheRobotsAsTheyAreDrawn) {
   EXPECT_NEAR(most, 0.02, 0.001);
 }
 
+TEST(FleetDraw, ASensorOfThePositionIsDrawnForAllVehiclesOfASeed) {
+  CaseOptions options = MixedOf("swarm");
+  options.fleet.draws_pose_fix = true;
+  double rarest_s = 0, finest_m = 1, coarsest_m = 0, most_dropout = 0;
+  OnManySeeds(options, [&](const Scenario& scenario) {
+    const PoseFixModel& first = scenario.vehicles.front().profile.pose_fix;
+    for (const VehicleOptions& vehicle : scenario.vehicles) {
+      const PoseFixModel& fix = vehicle.profile.pose_fix;
+      EXPECT_TRUE(fix.Fitted());
+      EXPECT_EQ(fix.every_s, first.every_s);
+      EXPECT_EQ(vehicle.profile.pose_limit_m, kUsualPoseLimit_m);
+    }
+    rarest_s = std::max(rarest_s, first.every_s);
+    finest_m = std::min(finest_m, first.sigma_m);
+    coarsest_m = std::max(coarsest_m, first.sigma_m);
+    most_dropout = std::max(most_dropout, first.dropout);
+  });
+  EXPECT_GT(rarest_s, 1.5);
+  EXPECT_LT(finest_m, 0.03);
+  EXPECT_GT(coarsest_m, 0.08);
+  EXPECT_GT(most_dropout, 0.25);
+}
+
+// The share of the seeds that have both; in the others no vehicle has either.
+TEST(FleetDraw, HalfOfTheSeedsHaveWheelErrorsAndTheSensor) {
+  CaseOptions options = MixedOf("swarm");
+  options.fleet.draws_pose_fix = true;
+  options.fleet.most_wheel_error = 0.02;
+  options.fleet.pose_keeping_share = 0.5;
+  int with = 0;
+  OnManySeeds(options, [&](const Scenario& scenario) {
+    const bool first = scenario.vehicles.front().profile.pose_fix.Fitted();
+    with += first ? 1 : 0;
+    for (const VehicleOptions& vehicle : scenario.vehicles) {
+      EXPECT_EQ(vehicle.profile.pose_fix.Fitted(), first);
+      EXPECT_EQ(vehicle.profile.wheel_error.Any(), first);
+    }
+  });
+  EXPECT_GT(with, 10);
+  EXPECT_LT(with, 30);
+}
+
 TEST(FleetDraw, DrawsAllThereIs) {
   double weakest = 9, fastest = 0, slowest = 9, largest = 0, most_slip = 0, turns_least = 9;
   std::set<BodyShape> shapes;

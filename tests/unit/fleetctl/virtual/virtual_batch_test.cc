@@ -47,7 +47,10 @@ TEST(VirtualBatch, ComesToTheSameWithAnyNumberOfThreads) {
     EXPECT_EQ(many.delays_s, one.delays_s);
     EXPECT_EQ(many.failing_seeds, one.failing_seeds);
     EXPECT_EQ(many.violations, one.violations);
+    EXPECT_EQ(many.traffic.by_rule_ns, one.traffic.by_rule_ns);
+    EXPECT_EQ(many.traffic.stops, one.traffic.stops);
   }
+  EXPECT_GT(one.traffic.by_rule_ns[static_cast<std::size_t>(Rule::kCruise)], 0U);
   EXPECT_NE(RunBatch(maker, {2, 13}, 2, kGoOn).hash, one.hash);
 }
 
