@@ -14,10 +14,10 @@
 
 namespace giveway {
 
-// A stadium: all points within radius_m of the first length_m of the axis.
 // After a longer silence nothing can be said of a peer; the ultrasonics and PeerLost take over.
 inline constexpr double kClaimLasts_s = 1.0;
 
+// A stadium: all points within radius_m of the first length_m of the axis.
 struct Claim {
   Path axis;
   double length_m = 0;
