@@ -20,10 +20,6 @@ bool Holds(const Claim& claim, double body_radius_m, double slack_m, Vec2 centre
   return SquaredNorm(beside) <= room_m * room_m;
 }
 
-double SlackOf(const Beacon& said) {
-  return kClaimSlack_m + kClaimSigmas * SigmaPosition(said.covariance);
-}
-
 }  // namespace
 
 Claims::Claims(const Scenario& scenario) : dt_s_(Seconds(scenario.tick_period)) {
@@ -31,41 +27,48 @@ Claims::Claims(const Scenario& scenario) : dt_s_(Seconds(scenario.tick_period)) 
   oldest_ticks_ = std::clamp<std::uint32_t>(lasts, 2, kKept - 1);
   for (const VehicleOptions& options : scenario.vehicles) {
     const std::uint32_t fresh = TicksCovering(options.beacon_age_limit, scenario.tick_period);
-    fresh_ticks_ = std::clamp<std::uint32_t>(fresh + 1, 2, oldest_ticks_);
+    fresh_ticks_ = std::clamp<std::uint32_t>(fresh + 1, fresh_ticks_, oldest_ticks_);
     tracks_.push_back({.deceleration_m_s2 = options.profile.deceleration_m_s2,
                        .reaction_s = 2 * dt_s_ + Seconds(options.sonar_refresh)});
   }
 }
 
-Claim Claims::ClaimOfBeacon(const Beacon& said, double unknown_s, const Track& track) const {
-  const double heading_rad = said.world_from_body.heading_rad;
-  const Twist twist = TwistFromWheels(said.drive, said.wheels);
-  return ClaimOf(said,
-                 {.forward_world = {Cos(heading_rad), Sin(heading_rad)},
-                  .speed_m_s = twist.forward_m_s,
-                  .turn_rad_s = twist.turn_rad_s},
-                 unknown_s, track.reaction_s);
+Claims::Said Claims::Keep(const Beacon& beacon) {
+  const double heading_rad = beacon.world_from_body.heading_rad;
+  const Twist twist = TwistFromWheels(beacon.drive, beacon.wheels);
+  return {.beacon = beacon,
+          .course = {.forward_world = {Cos(heading_rad), Sin(heading_rad)},
+                     .speed_m_s = twist.forward_m_s,
+                     .turn_rad_s = twist.turn_rad_s},
+          .slack_m = kClaimSlack_m + kClaimSigmas * SigmaPosition(beacon.covariance)};
 }
 
-const Beacon* Claims::SaidBefore(Tick tick, std::uint32_t ago, const Track& track) {
+const Claims::Said* Claims::SaidBefore(Tick tick, std::uint32_t ago, const Track& track) {
   if (Number(tick) <= ago) return nullptr;
-  const Beacon& said = track.said[(Number(tick) - ago) % kKept];
-  return said.tick != kNoTick && TicksBetween(said.tick, tick) == ago ? &said : nullptr;
+  const Said& said = track.said[(Number(tick) - ago) % kKept];
+  const Tick then = said.beacon.tick;
+  return then != kNoTick && TicksBetween(then, tick) == ago ? &said : nullptr;
 }
 
 // Of old beacons not every one: one that leaves their claims does so for some ticks.
 std::uint32_t Claims::Step(std::uint32_t ago) const { return ago < fresh_ticks_ ? 1 : 3; }
 
-bool Claims::IsInside(Tick tick, const Beacon& said, const Observed& now,
-                      const Track& track) const {
-  const Claim claim = ClaimOfBeacon(said, TicksBetween(said.tick, tick) * dt_s_, track);
-  const double slack_m = SlackOf(said);
+bool Claims::StaysInAll(Tick tick, const Observed& now, const Track& track) const {
   const double pace = Magnitude(now.forward_m_s);
   const double braking_m = now.forward_m_s * pace / (2 * track.deceleration_m_s2);
   const Vec2 stands_world =
       now.position_world + braking_m * Vec2{Cos(now.heading_rad), Sin(now.heading_rad)};
-  return Holds(claim, said.body_radius_m, slack_m, now.position_world) &&
-         Holds(claim, said.body_radius_m, slack_m, stands_world);
+  for (std::uint32_t ago = 2; ago <= oldest_ticks_; ago += Step(ago)) {
+    const Said* said = SaidBefore(tick, ago, track);
+    if (said == nullptr) continue;
+    const Claim claim = ClaimOf(said->beacon, said->course, ago * dt_s_, track.reaction_s);
+    const double radius_m = said->beacon.body_radius_m;
+    if (!Holds(claim, radius_m, said->slack_m, now.position_world) ||
+        !Holds(claim, radius_m, said->slack_m, stands_world)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 // Asked to stop in a tick, it brakes from the next on; peers use its beacon of the tick before.
@@ -75,10 +78,10 @@ bool Claims::StaysWhileBraking(Tick tick, const Observed& now, Track* track) con
     return true;
   }
   if (!track->braking) {
-    const Beacon* said = SaidBefore(tick, 1, *track);
+    const Said* said = SaidBefore(tick, 1, *track);
     if (said == nullptr) return true;
-    track->braking = ClaimOfBeacon(*said, 2 * dt_s_, *track);
-    track->braking_slack_m = SlackOf(*said);
+    track->braking = ClaimOf(said->beacon, said->course, 2 * dt_s_, track->reaction_s);
+    track->braking_slack_m = said->slack_m;
   }
   return Holds(*track->braking, now.beacon->body_radius_m, track->braking_slack_m,
                now.position_world);
@@ -91,16 +94,11 @@ std::span<const std::uint32_t> Claims::Observe(Tick tick, std::span<const Observ
     const Observed& now = vehicles[i];
     Track& track = tracks_[i];
     if (now.beacon == nullptr) continue;
-    bool inside = !now.present || StaysWhileBraking(tick, now, &track);
-    // A beacon is received a tick after it is sent, and applies to the motion in the tick after
-    // that.
-    for (std::uint32_t ago = 2; ago <= oldest_ticks_ && now.present && inside; ago += Step(ago)) {
-      const Beacon* said = SaidBefore(tick, ago, track);
-      inside = said == nullptr || IsInside(tick, *said, now, track);
-    }
+    const bool inside =
+        !now.present || (StaysWhileBraking(tick, now, &track) && StaysInAll(tick, now, track));
     if (!inside && !track.reported) left_.push_back(i);
     track.reported = !inside;
-    if (now.lives && now.beacon->tick == tick) track.said[Number(tick) % kKept] = *now.beacon;
+    if (now.lives && now.beacon->tick == tick) track.said[Number(tick) % kKept] = Keep(*now.beacon);
   }
   return left_;
 }

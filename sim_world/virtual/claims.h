@@ -30,21 +30,28 @@ class Claims {
   // As many beacons as peers keep clear of where all later ones are lost, at the usual 20 a second.
   static constexpr std::size_t kKept = 24;
 
+  // A beacon, and what each claim by it is made of.
+  struct Said {
+    Beacon beacon;
+    giveway::Course course;
+    double slack_m = 0;
+  };
   struct Track {
     double deceleration_m_s2 = 0;
     double reaction_s = 0;
-    std::array<Beacon, kKept> said{};  // [tick % kKept]
-    std::optional<Claim> braking;      // of when it started to brake; empty: it does not
+    std::array<Said, kKept> said{};  // [tick % kKept]
+    std::optional<Claim> braking;    // of when it started to brake; empty: it does not
     double braking_slack_m = 0;
     bool reported = false;
   };
 
-  Claim ClaimOfBeacon(const Beacon& said, double unknown_s, const Track& track) const;
+  static Said Keep(const Beacon& beacon);
   // The beacon sent that many ticks ago; null if none was.
-  static const Beacon* SaidBefore(Tick tick, std::uint32_t ago, const Track& track);
+  static const Said* SaidBefore(Tick tick, std::uint32_t ago, const Track& track);
   bool StaysWhileBraking(Tick tick, const Observed& now, Track* track) const;
-  bool IsInside(Tick tick, const Beacon& said, const Observed& now, const Track& track) const;
-
+  // Of all beacons that a peer may still use. A beacon is received a tick after it is sent, and
+  // applies to the motion in the tick after that.
+  bool StaysInAll(Tick tick, const Observed& now, const Track& track) const;
   std::uint32_t Step(std::uint32_t ago) const;
 
   double dt_s_;
