@@ -16,7 +16,7 @@ fleetctl=${GIVEWAY_BIN:-$root/build/release/bin}/fleetctl
 # shellcheck source=tests/virtual/figures.sh
 source "$here/figures.sh"
 bounds=$here/bounds.txt
-record=false draws=5 jobs=$(nproc)
+record=false draws=10 jobs=$(nproc)
 
 usage() {
   sed -n '10s/^# //p' "${BASH_SOURCE[0]}" >&2
