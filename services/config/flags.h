@@ -22,23 +22,24 @@ struct ServiceFlags {
   std::string interface = "127.0.0.1";  // an address, an interface's name, or "any"
   // Overrides the profile set's discovery; none: as the set says.
   std::vector<DiscoveryServer> discovery_servers;
-  std::string qos;                        // a file; ConfigDir()/qos/default.xml if not given
-  std::string scenario;                   // a file or a shipped scenario's name
-  std::uint32_t id = 0;                   // vehicle only; 0 asks the world for any free id
-  std::uint32_t threads = 1;              // world only; the result does not depend on it
-  std::string checkpoint;                 // world only; the file it is kept in; empty: none is
-  std::string record;                     // vehicle only; the file it is written to; empty: none is
-  std::uint64_t record_split = 0;         // vehicle only; bytes of a file of it; 0: it is one file
-  Nanoseconds record_ring{0};             // vehicle only; keeps so much of it at least; 0: all
-  bool partition_free = false;            // vehicle only; beacons also without a partition
-  bool leaves_out_shared_memory = false;  // of the profile set
-  std::optional<Resumed> resume;          // it was itself before, see restart.h
-  bool stay = false;                      // vehicle only; outlives its world
-  std::string go_on_from;                 // world only; the checkpoint it gave to itself
-  std::string faults;                     // world only; a concrete fault file; empty: none
-  std::string try_qos;      // not a service: makes the endpoints of this set once, and ends
+  std::string qos;                 // a file; ConfigDir()/qos/default.xml if not given
+  std::string scenario;            // a file or a shipped scenario's name
+  std::uint32_t id = 0;            // vehicle only; 0 asks the world for any free id
+  std::uint32_t threads = 1;       // world only; the result does not depend on it
+  std::string checkpoint;          // world only; the file it is kept in; empty: none is
+  std::string record;              // vehicle only; the file it is written to; empty: none is
+  std::uint64_t record_split = 0;  // vehicle only; bytes of a file of it; 0: it is one file
+  Nanoseconds record_ring{0};      // vehicle only; keeps so much of it at least; 0: all
+  bool partition_free = false;     // vehicle only; beacons also without a partition
+  std::optional<Resumed> resume;   // it was itself before, see restart.h
+  bool stay = false;               // vehicle only; outlives its world
+  std::string go_on_from;          // world only; the checkpoint it gave to itself
+  std::string faults;              // world only; a concrete fault file; empty: none
+  std::string try_qos;             // not a service: makes the endpoints of this set once, and ends
   std::string former_qos;   // the set it had before an order's; with it, it comes back if it must
   std::string rolled_back;  // why it came back with that
+  // Of the profile set only UDP is used.
+  bool leaves_out_shared_memory = false;
   bool hang_on_signal = false;       // vehicle only; a drill, see HangSignal
   bool watchdog = true;              // false: vehicle only, a drill; see Watchdog
   bool admin = false;                // takes orders of any operator; with a key only sealed ones

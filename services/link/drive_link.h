@@ -90,7 +90,7 @@ class DriveLink {
   virtual std::string InterfaceChange() const = 0;
   // Whether its shared memory was deleted: participants that start later do not receive this
   // vehicle.
-  virtual bool SharedMemoryIsGone() const = 0;
+  virtual bool SharedMemoryIsGone() = 0;
   // Whether the writer of this vehicle's ranges is matched and alive, whatever comes of its
   // samples.
   virtual bool WorldSpeaks() const = 0;

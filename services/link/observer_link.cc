@@ -119,7 +119,7 @@ ObserverLink::ObserverLink(const LinkOptions& options, Ranges ranges, Commands c
 ObserverLink::~ObserverLink() = default;
 
 void ObserverLink::RenewIfDeaf() {
-  if (!memory_.IsGone()) return;
+  if (!impl_->participant.SharedMemoryIsGone()) return;
   const LinkOptions options = WithoutSharedMemory(impl_->options);
   const Ranges ranges = impl_->ranges;
   const Commands commands = impl_->commands;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "services/link/fastdds/link_options.h"
-#include "services/link/fastdds/shared_memory_watch.h"
 #include "services/types/beacon.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/motor_command.h"
@@ -58,7 +57,6 @@ class ObserverLink {
   void RenewIfDeaf();
 
   std::unique_ptr<Impl> impl_;
-  SharedMemoryWatch memory_;
 };
 
 }  // namespace giveway::link

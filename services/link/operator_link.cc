@@ -129,7 +129,7 @@ std::uint64_t OperatorLink::NextNumber() {
 
 // As ObserverLink.
 void OperatorLink::RenewIfDeaf() {
-  if (!memory_.IsGone()) return;
+  if (!impl_->participant.SharedMemoryIsGone()) return;
   const LinkOptions options = WithoutSharedMemory(impl_->options);
   const std::string key = impl_->key;
   std::vector<VehicleId> sought;

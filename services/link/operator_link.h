@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "services/link/fastdds/link_options.h"
-#include "services/link/fastdds/shared_memory_watch.h"
 #include "services/types/admin.h"
 #include "services/types/refusal.h"
 
@@ -48,7 +47,6 @@ class OperatorLink {
   void RenewIfDeaf();
 
   std::unique_ptr<Impl> impl_;
-  SharedMemoryWatch memory_;
 };
 
 }  // namespace giveway::link

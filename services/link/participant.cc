@@ -230,6 +230,7 @@ Participant::Participant(const LinkOptions& options, const std::string& name,
   const dds::DomainParticipantQos qos = MakeQos(options, name, true, impairer_);
   servers_ = ServersOf(qos, options);
   secured_ = IsSecured(qos);
+  if (std::ranges::any_of(qos.transport().user_transports, IsSharedMemory)) memory_.emplace();
   // No status reaches the participant's listener, only discovery: in 2.9.1 an offered deadline
   // missed by a writer without a listener of its own crashes there.
   participant_.reset(dds::DomainParticipantFactory::get_instance()->create_participant(

@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "services/link/fastdds/endpoint.h"
 #include "services/link/fastdds/link_options.h"
+#include "services/link/fastdds/shared_memory_watch.h"
 #include "services/link/fastdds/topics.h"
 #include "services/link/inbox/unfit_endpoints.h"
 #include "services/link/sample_filter.h"
@@ -66,10 +68,13 @@ class Participant {
   bool SetDeadline(const std::string& profile, const Duration& deadline);
 
   const rtps::GuidPrefix_t& Prefix() const { return participant_->guid().guidPrefix; }
-  // One sentence while this participant is a client whose servers have not answered; else empty.
-  std::string WhyNoPeerIsFound() const;
   // The same in words: "010f45d2a3b1000001000000".
   std::string PrefixText() const;
+  // One sentence while this participant is a client whose servers have not answered; else empty.
+  std::string WhyNoPeerIsFound() const;
+  // Whether its shared memory was deleted: participants that start later do not receive it, unless
+  // they have none themselves. Looks at most once a second; false where it has none.
+  bool SharedMemoryIsGone() { return memory_ && memory_->IsGone(); }
   // Of endpoints found about a second ago, those that do not match one of ours, and why.
   std::vector<std::string> TakeUnfit(SteadyTime now);
   // The endpoints of others found since the last call. They are judged by TakeUnfit all the same.
@@ -103,6 +108,7 @@ class Participant {
   std::string topic_prefix_;
   std::string servers_;  // of a client, as they were named; else empty
   bool secured_ = false;
+  std::optional<SharedMemoryWatch> memory_;  // none where it uses no shared memory
   std::unique_ptr<dds::DomainParticipant, DeleteAll> participant_;
   std::vector<std::pair<std::string, dds::DataWriter*>> writers_;  // by profile, as they were made
   std::vector<std::pair<std::string, dds::DataReader*>> readers_;

@@ -175,7 +175,7 @@ RawLink::~RawLink() = default;
 
 // As ObserverLink.
 void RawLink::RenewIfDeaf() {
-  if (!memory_.IsGone()) return;
+  if (!impl_->participant.SharedMemoryIsGone()) return;
   const LinkOptions options = WithoutSharedMemory(impl_->options);
   std::vector<std::size_t> topics;
   for (const OpenTopic& open : impl_->open) topics.push_back(open.topic);

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "services/link/fastdds/link_options.h"
-#include "services/link/fastdds/shared_memory_watch.h"
 
 namespace giveway::link {
 
@@ -64,7 +63,6 @@ class RawLink {
   const OpenTopic* Find(std::size_t topic) const;
 
   std::unique_ptr<Impl> impl_;
-  SharedMemoryWatch memory_;
   std::vector<RawSample> samples_;
 };
 

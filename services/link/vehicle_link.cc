@@ -7,7 +7,6 @@
 #include "services/link/fastdds/interface_watch.h"
 #include "services/link/fastdds/library_log.h"
 #include "services/link/fastdds/reader_events.h"
-#include "services/link/fastdds/shared_memory_watch.h"
 #include "services/link/fastdds/writer_names.h"
 #include "services/link/impairment/impairer.h"
 #include "services/link/inbox/arrival_log.h"
@@ -269,7 +268,7 @@ std::string VehicleLink::ParticipantText() const { return impl_->participant.Pre
 std::string VehicleLink::WhyNoPeerIsFound() const { return impl_->participant.WhyNoPeerIsFound(); }
 
 std::string VehicleLink::InterfaceChange() const { return impl_->interfaces.Change(); }
-bool VehicleLink::SharedMemoryIsGone() const { return link::SharedMemoryIsGone(); }
+bool VehicleLink::SharedMemoryIsGone() { return impl_->participant.SharedMemoryIsGone(); }
 
 bool VehicleLink::WorldSpeaks() const {
   if (!impl_->own) return false;

@@ -51,7 +51,7 @@ class VehicleLink final : public AdminLink, public DriveLink {
   void SendStatus(const VehicleStatus& status) override;
   void FlushStatus(Nanoseconds timeout) override;
   std::string InterfaceChange() const override;
-  bool SharedMemoryIsGone() const override;
+  bool SharedMemoryIsGone() override;
   bool WorldSpeaks() const override;
   bool LacksBody() const override;
   VehicleLinkCounters Counters() const override;

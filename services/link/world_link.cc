@@ -9,7 +9,6 @@
 #include "services/link/convert/convert.h"
 #include "services/link/fastdds/anchored_reader.h"
 #include "services/link/fastdds/reader_events.h"
-#include "services/link/fastdds/shared_memory_watch.h"
 #include "services/link/fastdds/writer_names.h"
 #include "services/link/inbox/join_inbox.h"
 #include "services/link/inbox/latency.h"
@@ -151,7 +150,7 @@ WorldLink::~WorldLink() = default;
 std::string WorldLink::ParticipantText() const { return impl_->participant.PrefixText(); }
 
 std::string WorldLink::WhyNoPeerIsFound() const { return impl_->participant.WhyNoPeerIsFound(); }
-bool WorldLink::SharedMemoryIsGone() const { return link::SharedMemoryIsGone(); }
+bool WorldLink::SharedMemoryIsGone() { return impl_->participant.SharedMemoryIsGone(); }
 
 template <typename Scan>
 void WorldLink::Impl::Send(const Scan& scan) {

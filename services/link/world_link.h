@@ -48,7 +48,7 @@ class WorldLink final : public AdminLink {
   // One sentence while discovery servers are to be used and none has answered; else empty.
   std::string WhyNoPeerIsFound() const;
   // Whether its shared memory was deleted: participants that start later do not receive this world.
-  bool SharedMemoryIsGone() const;
+  bool SharedMemoryIsGone();
 
   // Makes the writers of the vehicle's ranges and of the sensors its profile is fitted with.
   // Nothing if they are there.

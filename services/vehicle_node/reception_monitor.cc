@@ -17,15 +17,14 @@ Remedy ReceptionMonitor::Update(SteadyTime now, bool scan) {
     LogError("the world speaks, but its scans do not arrive: starts itself again to hear it");
     return Remedy::kNewParticipant;
   }
-  if (now < next_check_) return Remedy::kNone;
-  next_check_ = now + kCheckEvery;
   if (link_.SharedMemoryIsGone()) {
     LogError(
         "its shared memory was deleted, newcomers cannot receive it: restarts itself over UDP "
         "alone");
     return Remedy::kNewParticipant;
   }
-  if (now - last_scan_ < kSilence) return Remedy::kNone;
+  if (now - last_scan_ < kSilence || now < next_check_) return Remedy::kNone;
+  next_check_ = now + kCheckEvery;
   const std::string change = link_.InterfaceChange();
   if (change.empty()) return Remedy::kNone;
   LogError(change + "; ends, to be started again");

@@ -17,13 +17,13 @@ enum class Remedy : std::uint8_t {
 
 class ReceptionMonitor {
  public:
-  ReceptionMonitor(const link::DriveLink* link, SteadyTime now) : link_(*link), scans_(now) {}
+  ReceptionMonitor(link::DriveLink* link, SteadyTime now) : link_(*link), scans_(now) {}
 
   // Once a turn; `scan`: one came. Says in the log why, where there is a remedy.
   Remedy Update(SteadyTime now, bool scan);
 
  private:
-  const link::DriveLink& link_;
+  link::DriveLink& link_;
   ScanWatch scans_;
   SteadyTime last_scan_{0};
   SteadyTime next_check_{0};

@@ -20,7 +20,6 @@ constexpr Nanoseconds kFlushTimeout = milliseconds(500);
 constexpr Nanoseconds kFlushWhenStopped = milliseconds(300);  // all is to be over in a second
 constexpr Nanoseconds kCheckpointPeriod = milliseconds(200);
 constexpr Nanoseconds kReminder = seconds(5);
-constexpr Nanoseconds kMemoryCheckEvery = seconds(1);
 // For the vehicles of a world that was restarted to find it: those that do not are silent then.
 constexpr Nanoseconds kResumePatience = seconds(10);
 // A vehicle that joins a running fleet stands until it hears all peers, but not for ever.
@@ -93,7 +92,7 @@ WorldEnd WorldLoop::Drive(const StopSignal& stop) {
     const bool goes = !resumed_with_ || fleet_->run.State() == RunState::kRunning;
     if (goes && options_.on_back) std::exchange(options_.on_back, nullptr)();
     const bool ordered = admin_.Serve();
-    if ((ordered || HasLostSharedMemory()) && !stop.IsSet()) {
+    if (!stop.IsSet() && (ordered || HasLostSharedMemory())) {
       link_.FlushAnswer(kFlushTimeout);  // a vehicle that misses the next scan halts
       return WorldEnd::kRestarts;
     }
@@ -104,10 +103,7 @@ WorldEnd WorldLoop::Drive(const StopSignal& stop) {
 }
 
 bool WorldLoop::HasLostSharedMemory() {
-  const SteadyTime now = SteadyNow();
-  if (options_.lockstep || now < next_memory_check_) return false;
-  next_memory_check_ = now + kMemoryCheckEvery;
-  if (!link_.SharedMemoryIsGone()) return false;
+  if (options_.lockstep || !link_.SharedMemoryIsGone()) return false;
   LogError(
       "its shared memory was deleted, newcomers cannot receive it: restarts itself over UDP alone");
   return true;

@@ -44,8 +44,7 @@ class WorldLoop {
   WorldLoop(const Scenario& scenario, link::WorldLink* link, ServiceAdmin* admin,
             HealthService<WorldHealth>* health, const WorldLoopOptions& options);
 
-  // Runs to the end, or until an operator's order takes a restart.
-  // Likewise where its shared memory was deleted, which later vehicles would not find.
+  // Runs to the end, or until an operator's order takes a restart, or its shared memory was deleted.
   WorldEnd Drive(const StopSignal& stop);
   // All that another process needs to resume from here.
   std::string State() const;
@@ -118,7 +117,6 @@ class WorldLoop {
   std::uint32_t overruns_ = 0;
   std::unique_ptr<StateWriter> checkpoint_writer_;  // null: none is kept
   SteadyTime next_checkpoint_{0};
-  SteadyTime next_memory_check_{0};
   FaultReminder checkpoint_fault_;  // a full disk is no news at every tick
 };
 

@@ -38,7 +38,8 @@ inline LinkOptions OfAllBodies(LinkOptions options) {
   return options;
 }
 
-// An entity could not be made: says which, why, and what to do. Start-up only; main exits with 2.
+// An entity could not be made: says which, why, and what to do. At start-up, and where a link
+// replaces its participant; main exits with 2.
 class LinkError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

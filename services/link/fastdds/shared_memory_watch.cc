@@ -43,13 +43,12 @@ bool IsSegmentGone(const std::vector<std::string>& open_files) {
   return std::ranges::any_of(open_files, IsDeletedLock);
 }
 
-bool SharedMemoryIsGone() { return IsSegmentGone(LinksIn("/proc/self/fd")); }
-
 bool SharedMemoryWatch::IsGone() {
   const SteadyTime now(std::chrono::steady_clock::now().time_since_epoch());
-  if (now < next_) return false;
+  if (gone_ || now < next_) return gone_;
   next_ = now + std::chrono::seconds(1);
-  return SharedMemoryIsGone();
+  gone_ = IsSegmentGone(LinksIn("/proc/self/fd"));
+  return gone_;
 }
 
 }  // namespace giveway::link

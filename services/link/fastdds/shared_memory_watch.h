@@ -17,18 +17,15 @@ std::vector<std::string> LinksIn(const std::string& folder);
 // deleted. The library's ports do not count: it creates those again.
 bool IsSegmentGone(const std::vector<std::string>& open_files);
 
-// Of this process.
-bool SharedMemoryIsGone();
-
-// For a link that replaces its participant. Of several in one process, one may replace its own a
-// second time, until all have.
+// Of this process; of a participant that uses shared memory.
 class SharedMemoryWatch {
  public:
-  // False too where it was looked less than a second ago.
+  // Looks at most once a second. Once true it stays so.
   bool IsGone();
 
  private:
   SteadyTime next_{0};
+  bool gone_ = false;
 };
 
 }  // namespace giveway::link

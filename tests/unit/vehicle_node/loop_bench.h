@@ -105,7 +105,7 @@ class ScriptedLink final : public link::DriveLink {
   }
   std::string WhyNoPeerIsFound() const override { return {}; }
   std::string InterfaceChange() const override { return interface_change_; }
-  bool SharedMemoryIsGone() const override { return shared_memory_is_gone_; }
+  bool SharedMemoryIsGone() override { return shared_memory_is_gone_; }
   bool WorldSpeaks() const override { return world_speaks_; }
   bool LacksBody() const override { return lacks_body_; }
   link::VehicleLinkCounters Counters() const override { return {}; }
