@@ -33,7 +33,7 @@ Claims::Claims(const Scenario& scenario) : dt_s_(Seconds(scenario.tick_period)) 
   }
 }
 
-Claims::Said Claims::Keep(const Beacon& beacon) {
+Claims::SentBeacon Claims::Keep(const Beacon& beacon) {
   const double heading_rad = beacon.world_from_body.heading_rad;
   const Twist twist = TwistFromWheels(beacon.drive, beacon.wheels);
   return {.beacon = beacon,
@@ -43,9 +43,9 @@ Claims::Said Claims::Keep(const Beacon& beacon) {
           .slack_m = kClaimSlack_m + kClaimSigmas * SigmaPosition(beacon.covariance)};
 }
 
-const Claims::Said* Claims::SaidBefore(Tick tick, std::uint32_t ago, const Track& track) {
+const Claims::SentBeacon* Claims::SaidBefore(Tick tick, std::uint32_t ago, const Track& track) {
   if (Number(tick) <= ago) return nullptr;
-  const Said& said = track.said[(Number(tick) - ago) % kKept];
+  const SentBeacon& said = track.said[(Number(tick) - ago) % kKept];
   const Tick then = said.beacon.tick;
   return then != kNoTick && TicksBetween(then, tick) == ago ? &said : nullptr;
 }
@@ -59,7 +59,7 @@ bool Claims::StaysInAll(Tick tick, const Observed& now, const Track& track) cons
   const Vec2 stands_world =
       now.position_world + braking_m * Vec2{Cos(now.heading_rad), Sin(now.heading_rad)};
   for (std::uint32_t ago = 2; ago <= oldest_ticks_; ago += Step(ago)) {
-    const Said* said = SaidBefore(tick, ago, track);
+    const SentBeacon* said = SaidBefore(tick, ago, track);
     if (said == nullptr) continue;
     const Claim claim = ClaimOf(said->beacon, said->course, ago * dt_s_, track.reaction_s);
     const double radius_m = said->beacon.body_radius_m;
@@ -78,7 +78,7 @@ bool Claims::StaysWhileBraking(Tick tick, const Observed& now, Track* track) con
     return true;
   }
   if (!track->braking) {
-    const Said* said = SaidBefore(tick, 1, *track);
+    const SentBeacon* said = SaidBefore(tick, 1, *track);
     if (said == nullptr) return true;
     track->braking = ClaimOf(said->beacon, said->course, 2 * dt_s_, track->reaction_s);
     track->braking_slack_m = said->slack_m;

@@ -31,7 +31,7 @@ class Claims {
   static constexpr std::size_t kKept = 24;
 
   // A beacon, and what each claim by it is made of.
-  struct Said {
+  struct SentBeacon {
     Beacon beacon;
     giveway::Course course;
     double slack_m = 0;
@@ -39,15 +39,15 @@ class Claims {
   struct Track {
     double deceleration_m_s2 = 0;
     double reaction_s = 0;
-    std::array<Said, kKept> said{};  // [tick % kKept]
-    std::optional<Claim> braking;    // of when it started to brake; empty: it does not
+    std::array<SentBeacon, kKept> said{};  // [tick % kKept]
+    std::optional<Claim> braking;          // of when it started to brake; empty: it does not
     double braking_slack_m = 0;
     bool reported = false;
   };
 
-  static Said Keep(const Beacon& beacon);
+  static SentBeacon Keep(const Beacon& beacon);
   // The beacon sent that many ticks ago; null if none was.
-  static const Said* SaidBefore(Tick tick, std::uint32_t ago, const Track& track);
+  static const SentBeacon* SaidBefore(Tick tick, std::uint32_t ago, const Track& track);
   bool StaysWhileBraking(Tick tick, const Observed& now, Track* track) const;
   // Of all beacons that a peer may still use. A beacon is received a tick after it is sent, and
   // applies to the motion in the tick after that.
