@@ -44,7 +44,8 @@ class WorldLoop {
   WorldLoop(const Scenario& scenario, link::WorldLink* link, ServiceAdmin* admin,
             HealthService<WorldHealth>* health, const WorldLoopOptions& options);
 
-  // Runs to the end, or until an operator's order takes a restart, or its shared memory was deleted.
+  // Runs to the end, or until an operator's order takes a restart, or its shared memory was
+  // deleted.
   WorldEnd Drive(const StopSignal& stop);
   // All that another process needs to resume from here.
   std::string State() const;
