@@ -59,7 +59,7 @@ TEST_F(TrafficTest, AStopIsCountedOnceAndOnlyOfOneThatMoved) {
 }
 
 TEST_F(TrafficTest, WhatIsTakenBackIsAWordThatWasGiven) {
-  for (const std::uint32_t to : {0, 0, 4, 4, 5, 5, 0, 0, 4}) {
+  for (const std::uint32_t to : {0U, 0U, 4U, 4U, 5U, 5U, 0U, 0U, 4U}) {
     now_[0].gives_way_to = VehicleId{to};
     Drive(0.3, 1);
   }
