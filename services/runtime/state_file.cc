@@ -5,17 +5,14 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 namespace giveway {
 
 std::optional<std::string> ReadStateFile(const std::string& path) {
   if (access(path.c_str(), F_OK) != 0 && errno == ENOENT) return std::nullopt;
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw std::runtime_error(FileComplaint(path, "cannot be read"));
+  std::optional<std::string> bytes = ReadWholeFile(path);
+  if (!bytes) throw std::runtime_error(FileComplaint(path, "cannot be read"));
   return bytes;
 }
 

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -117,6 +118,22 @@ std::optional<std::string> WriteSpecial(const std::string& path, std::string_vie
 
 std::string FileComplaint(const std::string& path, const char* what) {
   return path + ": " + what + ": " + std::strerror(errno);
+}
+
+std::optional<std::string> ReadWholeFile(const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return std::nullopt;
+  std::string bytes;
+  std::array<char, 4096> part{};
+  ssize_t got = 0;
+  do {
+    got = ::read(descriptor, part.data(), part.size());
+    if (got > 0) bytes.append(part.data(), static_cast<std::size_t>(got));
+  } while (got > 0 || (got < 0 && errno == EINTR));
+  const int fault = errno;
+  ::close(descriptor);
+  errno = fault;
+  return got == 0 ? std::optional(std::move(bytes)) : std::nullopt;
 }
 
 std::string WriteStateFile(const std::string& path, std::string_view bytes) {

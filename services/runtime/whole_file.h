@@ -1,12 +1,18 @@
-// Files that are written whole or not at all: first under a temporary name in the same folder, then
-// renamed. A reader finds what was there before or all of what is new, never a part, whatever
-// fails.
+// Files that are read and written whole or not at all. They are written first under a temporary
+// name in the same folder, then renamed: a reader finds what was there before or all of what is
+// new, never a part, whatever fails.
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace giveway {
+
+// Nothing where it cannot be read to its end, and errno says why: not there, a folder, or of a
+// process in /proc that ended meanwhile.
+std::optional<std::string> ReadWholeFile(const std::filesystem::path& path);
 
 // Empty if it is written, else why not. For the state of a process: what is at `path` is replaced,
 // a symbolic link itself and not the file it leads to. It survives the death of the process at any

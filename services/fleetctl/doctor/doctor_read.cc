@@ -23,6 +23,7 @@
 #include "services/fleetctl/survey/why_proc.h"
 #include "services/fleetctl/survey/why_proc_text.h"
 #include "services/qos/xml_tree.h"
+#include "services/runtime/whole_file.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -53,7 +54,7 @@ ProcessSituation Planned(const DoctorOptions& options) {
 }
 
 std::optional<std::string> ReadFact(const fs::path& file, HostFacts* host) {
-  auto text = ReadText(file);
+  auto text = ReadWholeFile(file);
   if (!text) host->not_known.push_back(file.string() + ": " + std::strerror(errno));
   return text;
 }
@@ -93,7 +94,7 @@ std::optional<std::set<std::uint16_t>> ReadPorts(const fs::path& proc, HostFacts
   if (!udp) return std::nullopt;
   std::set<std::uint16_t> ports;
   // A host without IPv6 has no such file.
-  for (const std::string& text : {*udp, ReadText(proc / "net/udp6").value_or("")}) {
+  for (const std::string& text : {*udp, ReadWholeFile(proc / "net/udp6").value_or("")}) {
     for (const auto& [inode, port] : ParseUdp(text)) ports.insert(port);
   }
   return ports;

@@ -18,6 +18,7 @@
 #include "services/fleetctl/process/file_descriptor.h"
 #include "services/fleetctl/survey/why_proc.h"
 #include "services/fleetctl/survey/why_proc_text.h"
+#include "services/runtime/whole_file.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -124,7 +125,7 @@ std::vector<UnseenProcess> ReadUsers(const fs::path& proc, std::vector<MemoryFil
     if (maps && holds) continue;
     // Kernel threads and ended processes have no command line.
     struct stat owner {};
-    if (ReadText(process / "cmdline").value_or("").empty()) continue;
+    if (ReadWholeFile(process / "cmdline").value_or("").empty()) continue;
     if (::stat(process.c_str(), &owner) != 0) continue;
     unseen.push_back({pid, owner.st_uid});
   }

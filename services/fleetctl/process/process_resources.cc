@@ -4,10 +4,10 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
+
+#include "services/runtime/whole_file.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -17,11 +17,6 @@ std::uint64_t NumberOf(std::string_view status, std::string_view key) {
   const std::size_t at = status.find("\n" + std::string(key) + ":");
   if (at == std::string_view::npos) return 0;
   return std::strtoull(std::string(status.substr(at + key.size() + 2, 40)).c_str(), nullptr, 10);
-}
-
-std::string ReadAll(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 }  // namespace
@@ -47,9 +42,9 @@ std::optional<ProcessResources> ParseResources(std::string_view stat, std::strin
 
 std::optional<ProcessResources> ReadResources(pid_t pid) {
   const std::filesystem::path folder = "/proc/" + std::to_string(pid);
-  std::optional<ProcessResources> resources =
-      ParseResources(ReadAll(folder / "stat"), ReadAll(folder / "status"),
-                     static_cast<double>(::sysconf(_SC_CLK_TCK)));
+  std::optional<ProcessResources> resources = ParseResources(
+      ReadWholeFile(folder / "stat").value_or(""), ReadWholeFile(folder / "status").value_or(""),
+      static_cast<double>(::sysconf(_SC_CLK_TCK)));
   if (!resources) return std::nullopt;
   std::error_code gone;
   for (std::filesystem::directory_iterator entry(folder / "fd", gone), end; !gone && entry != end;

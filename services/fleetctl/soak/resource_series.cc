@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <span>
 #include <sstream>
 #include <tuple>
 
+#include "services/runtime/whole_file.h"
 #include "services/statistics/two_sample.h"
 
 namespace giveway::fleetctl {
@@ -38,11 +37,6 @@ double LeastLeak(ResourceKind kind) {
       break;
   }
   return statistics::kLeastLeakBytes;
-}
-
-std::string ReadWhole(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 // inode -> bytes, of one process; a segment may be mapped in several parts.
@@ -203,7 +197,7 @@ std::uint64_t SharedMemoryIn(const std::vector<std::string>& maps) {
 std::uint64_t ReadSharedMemory(const std::vector<pid_t>& processes) {
   std::vector<std::string> maps;
   for (const pid_t process : processes) {
-    maps.push_back(ReadWhole("/proc/" + std::to_string(process) + "/maps"));
+    maps.push_back(ReadWholeFile("/proc/" + std::to_string(process) + "/maps").value_or(""));
   }
   return SharedMemoryIn(maps);
 }

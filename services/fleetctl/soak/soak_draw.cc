@@ -2,14 +2,13 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "services/fleetctl/output/output_file.h"
 #include "services/fleetctl/process/child_process.h"
 #include "services/fleetctl/process/gnuplot.h"
 #include "services/fleetctl/soak/soak_json.h"
+#include "services/runtime/whole_file.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -40,8 +39,7 @@ std::string DrawOne(const SoakPlot& plot, const fs::path& folder,
   WriteFile(program.Path(), "set output " + GnuplotQuoted(svg.Path()) + "\n" + plot.program);
   std::string complaint = RunGnuplot(program.Path());
   if (!complaint.empty()) return complaint;
-  std::ifstream stream(svg.Path());
-  drawn->push_back({plot.name, plot.title, {std::istreambuf_iterator<char>(stream), {}}});
+  drawn->push_back({plot.name, plot.title, ReadWholeFile(svg.Path()).value_or("")});
   return "";
 }
 

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 
@@ -17,6 +15,7 @@
 #include "services/fleetctl/survey/why_proc_text.h"
 #include "services/qos/xml_tree.h"
 #include "services/runtime/identity.h"
+#include "services/runtime/whole_file.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -31,9 +30,9 @@ std::optional<std::string> ReadLink(const fs::path& link) {
 }
 
 std::optional<Started> ReadStarted(const fs::path& process) {
-  const auto words = ReadText(process / "cmdline");
+  const auto words = ReadWholeFile(process / "cmdline");
   if (!words || words->empty()) return std::nullopt;  // gone, or a zombie
-  Started started{ZeroEnded(*words), ZeroEnded(ReadText(process / "environ").value_or(""))};
+  Started started{ZeroEnded(*words), ZeroEnded(ReadWholeFile(process / "environ").value_or(""))};
   if (!started.IsVehicle() && !started.IsWorld()) return std::nullopt;
   return started;
 }
@@ -50,7 +49,7 @@ class Reading {
       to_.participant = std::move(identity->participant);
       if (identity->vehicle != kNoVehicle) to_.launch.id = identity->vehicle;
     }
-    if (!ReadText(process_ / "environ")) NotKnown("environment");
+    if (!ReadWholeFile(process_ / "environ")) NotKnown("environment");
   }
 
   ProcessSituation Read() {
@@ -92,11 +91,11 @@ class Reading {
 };
 
 void Reading::ReadState() {
-  const auto stat = ReadText(process_ / "stat");
+  const auto stat = ReadWholeFile(process_ / "stat");
   const auto facts = stat ? ParseStat(*stat) : std::nullopt;
   if (!facts) return NotKnown("state");
   to_.state = facts->state;
-  const auto boot = ParseBootTime(ReadText(proc_ / "stat").value_or(""));
+  const auto boot = ParseBootTime(ReadWholeFile(proc_ / "stat").value_or(""));
   if (boot)
     start_s_ = *boot + facts->start_ticks / static_cast<std::uint64_t>(sysconf(_SC_CLK_TCK));
 }
@@ -111,7 +110,7 @@ void Reading::ReadNamespaces() {
   to_.network_namespace = read("net", "network namespace");
   to_.ipc_namespace = read("ipc", "ipc namespace");
   to_.mount_namespace = read("mnt", "mount namespace");
-  to_.pid_inside = ParseInnerPid(ReadText(process_ / "status").value_or("")).value_or(to_.pid);
+  to_.pid_inside = ParseInnerPid(ReadWholeFile(process_ / "status").value_or("")).value_or(to_.pid);
   struct stat memory {};
   if (::stat((process_ / "root/dev/shm").c_str(), &memory) == 0) {
     to_.shared_memory = FileIdentity{memory.st_dev, memory.st_ino};
@@ -124,14 +123,15 @@ void Reading::ReadNamespaces() {
 // they have an address, but no carrier. If that cannot be read, it counts as running.
 bool Reading::IsUnplugged(const NetworkAddress& address) const {
   if (address.interface.empty()) return false;
-  const auto carrier = ReadText(process_ / "root/sys/class/net" / address.interface / "carrier");
+  const auto carrier =
+      ReadWholeFile(process_ / "root/sys/class/net" / address.interface / "carrier");
   return carrier && carrier->starts_with('0');
 }
 
 void Reading::ReadNetwork() {
-  const auto trie = ReadText(process_ / "net/fib_trie");
-  const auto route = ReadText(process_ / "net/route");
-  const auto dev = ReadText(process_ / "net/dev");
+  const auto trie = ReadWholeFile(process_ / "net/fib_trie");
+  const auto route = ReadWholeFile(process_ / "net/route");
+  const auto dev = ReadWholeFile(process_ / "net/dev");
   if (trie && route && dev) {
     to_.addresses = ParseAddresses(*trie, *route, *dev);
     std::erase_if(*to_.addresses, [this](const NetworkAddress& one) { return IsUnplugged(one); });
@@ -141,10 +141,10 @@ void Reading::ReadNetwork() {
 }
 
 void Reading::ReadFiles() {
-  to_.open_files_limit = ParseOpenFilesLimit(ReadText(process_ / "limits").value_or(""));
+  to_.open_files_limit = ParseOpenFilesLimit(ReadWholeFile(process_ / "limits").value_or(""));
   std::error_code error;
   fs::directory_iterator files(process_ / "fd", error);
-  const auto udp = ReadText(process_ / "net/udp");
+  const auto udp = ReadWholeFile(process_ / "net/udp");
   if (error || !udp) {
     errno = error ? error.value() : errno;
     return NotKnown("ports");
@@ -225,12 +225,6 @@ void Reading::ReadProfiles() {
 }
 
 }  // namespace
-
-std::optional<std::string> ReadText(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(stream), {});
-}
 
 std::vector<int> ProcessIds(const fs::path& proc) {
   std::vector<int> pids;

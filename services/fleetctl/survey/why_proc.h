@@ -21,9 +21,6 @@ struct FleetMember {
   std::optional<std::uint64_t> network_namespace;
 };
 
-// A whole file; nullopt, and errno, if it cannot be opened.
-std::optional<std::string> ReadText(const std::filesystem::path& file);
-
 // Of all processes, ascending.
 std::vector<int> ProcessIds(const std::filesystem::path& proc);
 

@@ -1,10 +1,9 @@
 #include "services/fleetctl/tune/tune_draw.h"
 
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 
 #include "services/fleetctl/process/gnuplot.h"
+#include "services/runtime/whole_file.h"
 
 namespace giveway::fleetctl {
 
@@ -19,8 +18,7 @@ std::vector<DrawnPlot> Draw(const std::vector<TunePlot>& plots, const TuneStore&
       std::fprintf(stderr, "no pictures: %s\n", complaint.c_str());
       return {};
     }
-    std::ifstream stream(svg);
-    drawn.push_back({plot.title, {std::istreambuf_iterator<char>(stream), {}}});
+    drawn.push_back({plot.title, ReadWholeFile(svg).value_or("")});
   }
   return drawn;
 }

@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
 #include "services/fleetctl/output/output_file.h"
 #include "services/runtime/json.h"
+#include "services/runtime/whole_file.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -72,11 +71,6 @@ TrialEvidence FromJson(const Json& json) {
   return evidence;
 }
 
-std::string ReadAll(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 void MakeFolder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -126,7 +120,7 @@ TuneStore::TuneStore(fs::path folder, const std::string& plan) : folder_(std::mo
   MakeFolder(folder_ / "profiles");
   MakeFolder(folder_ / "trials");
   const fs::path plan_file = folder_ / "plan.json";
-  if (fs::exists(plan_file) && ReadAll(plan_file) != plan + "\n") {
+  if (fs::exists(plan_file) && ReadWholeFile(plan_file).value_or("") != plan + "\n") {
     throw OutputError(folder_.string() +
                       " holds the evidence of another search (plan.json says which); give its "
                       "arguments to resume it, or another --out");
@@ -139,7 +133,8 @@ TuneStore::TuneStore(fs::path folder, const std::string& plan) : folder_(std::mo
   std::ranges::sort(files);
   for (const fs::path& file : files) {
     // A file that cannot be read is measured again.
-    if (auto evidence = EvidenceFrom(ReadAll(file))) found_.push_back(std::move(*evidence));
+    if (auto evidence = EvidenceFrom(ReadWholeFile(file).value_or("")))
+      found_.push_back(std::move(*evidence));
   }
 }
 

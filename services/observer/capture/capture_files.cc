@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iterator>
+#include <optional>
+
+#include "services/runtime/whole_file.h"
 
 namespace giveway {
 namespace {
@@ -114,13 +115,12 @@ void CaptureFiles::RemoveOldest() {
 
 // One that cannot be read is said, and the recording is whole without it.
 void CaptureFiles::Attach(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes(std::istreambuf_iterator<char>(file), {});
-  if (file.bad() || !file.is_open()) {
+  const std::optional<std::string> bytes = ReadWholeFile(path);
+  if (!bytes) {
     missing_ += (missing_.empty() ? "" : ", ") + path;
     return;
   }
-  capture_->Attach(path.substr(path.rfind('/') + 1), bytes, newest_ns_);
+  capture_->Attach(path.substr(path.rfind('/') + 1), *bytes, newest_ns_);
 }
 
 void CaptureFiles::AttachAtEnd(const std::vector<std::string>& files) {

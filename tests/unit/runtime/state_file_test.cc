@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 
@@ -117,6 +118,18 @@ TEST_F(StateFile, AFolderIsNoState) {
   std::filesystem::create_directory(file_);
   EXPECT_THROW(ReadStateFile(file_), std::runtime_error);
   EXPECT_NE(WriteStateFile(file_, "x"), "");
+}
+
+// Regression: of a process that ended while its file in /proc was read a stream threw, and fleetctl
+// doctor ended with exit code 2.
+TEST(ReadWholeFile, WhatCannotBeReadToItsEndIsNothing) {
+  EXPECT_EQ(ReadWholeFile("/proc/self/mem"), std::nullopt);  // opens, and cannot be read at 0
+  EXPECT_EQ(errno, EIO);
+  EXPECT_EQ(ReadWholeFile("/proc/self"), std::nullopt);
+  EXPECT_EQ(errno, EISDIR);
+  EXPECT_EQ(ReadWholeFile("/proc/self/absent"), std::nullopt);
+  EXPECT_EQ(errno, ENOENT);
+  EXPECT_NE(ReadWholeFile("/proc/self/stat").value_or(""), "");  // whose size is 0
 }
 
 }  // namespace
