@@ -58,20 +58,42 @@ std::vector<char*> EnvironmentOf(ChildCommand* command) {
   return variables;
 }
 
-// Signal masks and ignored signals survive exec: the child must start with neither.
-void ResetSignals() {
-  sigset_t none;
-  sigemptyset(&none);
-  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+// Holds all signals of this thread back.
+class SignalsHeld {
+ public:
+  SignalsHeld() {
+    sigset_t all;
+    sigfillset(&all);
+    ::pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~SignalsHeld() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsHeld(const SignalsHeld&) = delete;
+  SignalsHeld& operator=(const SignalsHeld&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
+// Signal masks and ignored signals survive exec: the child must start with neither, but for what it
+// lets pass itself. One that came since the fork must not find a handler of this process.
+void ResetSignals(bool handles_stops) {
   for (const int number : {SIGINT, SIGTERM, SIGPIPE, SIGHUP, SIGQUIT, SIGALRM, SIGXFSZ}) {
     std::signal(number, SIG_DFL);
   }
+  sigset_t blocked;
+  sigemptyset(&blocked);
+  if (handles_stops) {
+    sigaddset(&blocked, SIGINT);
+    sigaddset(&blocked, SIGTERM);
+  }
+  ::sigprocmask(SIG_SETMASK, &blocked, nullptr);
 }
 
 // Runs between fork and exec, in a process whose other threads are gone: system calls only.
 [[noreturn]] void BecomeChild(char* const* words, char* const* environment, pid_t parent,
-                              int output, int kept_fd) {
-  ResetSignals();
+                              int output, const ChildCommand& command) {
+  const int kept_fd = command.kept_fd;
+  ResetSignals(command.handles_stops);
   // A process group of its own: Ctrl-C reaches fleetctl alone, which stops the fleet gracefully.
   ::setpgid(0, 0);
   DieWith(parent);
@@ -125,10 +147,10 @@ ChildProcess::ChildProcess(const ChildCommand& command)
 
   Pipe pipe = MakePipe();
   const pid_t parent = ::getpid();
+  const SignalsHeld until_child_is_ready;
   pid_ = ::fork();
   if (pid_ < 0) throw StartError("cannot fork for " + name_ + ": " + ErrnoText());
-  if (pid_ == 0)
-    BecomeChild(argv.data(), environment.data(), parent, pipe.write.Get(), command.kept_fd);
+  if (pid_ == 0) BecomeChild(argv.data(), environment.data(), parent, pipe.write.Get(), command);
   output_ = std::move(pipe.read);
 }
 

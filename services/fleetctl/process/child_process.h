@@ -52,6 +52,9 @@ struct ChildCommand {
   // No GIVEWAY_ variable of this shell is passed on as a flag. Without this the log's format, the
   // world's threads and free partitions may be set by it; no other flag ever is.
   bool flags_only = false;
+  // It handles SIGINT and SIGTERM, and lets them pass once it does (StopSignal): until then they
+  // wait. Without this a stop that comes early ends it, as any program.
+  bool handles_stops = false;
   // NAME=value each, in addition to what is passed on from this process's environment.
   std::vector<std::string> environment = {};
 };

@@ -91,6 +91,7 @@ std::vector<MemberCommand> MakeCommands(const FleetSpec& spec, const Scenario& s
     child.kept_fd = spec.lock_fd;
     child.hands_on_lines = spec.hands_on_lines;
     child.flags_only = spec.flags_only;
+    child.handles_stops = true;
     const auto place = static_cast<std::int64_t>(commands.size());
     commands.push_back({member, std::move(child), place * spec.stagger});
   };
