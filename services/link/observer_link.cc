@@ -120,6 +120,7 @@ ObserverLink::~ObserverLink() = default;
 
 void ObserverLink::RenewIfDeaf() {
   if (!impl_->participant.SharedMemoryIsGone()) return;
+  given_ = last_event_;
   const LinkOptions options = WithoutSharedMemory(impl_->options);
   const Ranges ranges = impl_->ranges;
   const Commands commands = impl_->commands;
@@ -127,14 +128,22 @@ void ObserverLink::RenewIfDeaf() {
   impl_ = std::make_unique<Impl>(options, ranges, commands);
 }
 
+// A world keeps its events for readers that join later, and so gives them to the new reader again.
+void ObserverLink::DropGiven(std::vector<WorldEvent>* events) {
+  std::erase_if(*events, [this](const WorldEvent& event) {
+    return event.epoch == given_.epoch && event.seq <= given_.seq;
+  });
+  if (!events->empty()) last_event_ = {events->back().epoch, events->back().seq};
+}
+
 Observed ObserverLink::Take() {
-  RenewIfDeaf();
   impl_->names.Writers().Update();
   Observed observed;
   impl_->AppendOwn(impl_->status_reader, impl_->status_owners, observed.statuses, observed);
   impl_->beacons.Drain(SteadyTime{0}, observed.beacons);
   impl_->Append(impl_->truth_reader, observed.truths, observed);
   impl_->Append(impl_->event_reader, observed.events, observed);
+  DropGiven(&observed.events);
   impl_->Append(impl_->roster_reader, observed.roster, observed);
   impl_->Append(impl_->signal_reader, observed.signals, observed);
   if (impl_->ranges_reader) impl_->Append(*impl_->ranges_reader, observed.ranges, observed);
@@ -146,6 +155,7 @@ Observed ObserverLink::Take() {
   if (!figures.empty()) observed.figures = figures.back();
   impl_->FollowTicks(observed.truths);
   impl_->TakeRefusals(observed);
+  RenewIfDeaf();  // after what has come is taken
   return observed;
 }
 

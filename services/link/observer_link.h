@@ -48,15 +48,23 @@ class ObserverLink {
 
   // Everything that came since the last call: events in order, the other kinds in order of arrival
   // for each vehicle (roster: session; signals: head). Where its shared memory was deleted it
-  // replaces its participant by one over UDP, which takes a tenth of a second. Throws LinkError
-  // where it cannot.
+  // replaces its participant by one over UDP, which takes a tenth of a second; what the world keeps
+  // for newcomers comes again then, but for its events. Throws LinkError where it cannot, and must
+  // not be used after that.
   Observed Take();
 
  private:
   struct Impl;
+  struct EventNumber {
+    WorldEpoch epoch = kNoEpoch;
+    std::uint32_t seq = 0;
+  };
   void RenewIfDeaf();
+  void DropGiven(std::vector<WorldEvent>* events);
 
   std::unique_ptr<Impl> impl_;
+  EventNumber last_event_;  // that was returned
+  EventNumber given_;       // before the participant was replaced; none: it was not
 };
 
 }  // namespace giveway::link

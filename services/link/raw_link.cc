@@ -185,9 +185,9 @@ void RawLink::RenewIfDeaf() {
 }
 
 void RawLink::Collect() {
-  RenewIfDeaf();
   impl_->names.Update();
   for (const OpenTopic& open : impl_->open) open.reader.drain(samples_);
+  RenewIfDeaf();
 }
 
 void RawLink::Open(std::size_t topic) {

@@ -20,6 +20,9 @@ struct LifeEnd {
   std::optional<NewFlags> back;  // to come back with; nothing: the process ends
 };
 
+inline constexpr const char* kSharedMemoryDeleted =
+    "its shared memory was deleted, newcomers cannot receive it: restarts itself over UDP alone";
+
 // Where its shared memory was deleted it comes back without.
 LifeEnd WithoutLostMemory(LifeEnd end, bool shared_memory_is_gone);
 

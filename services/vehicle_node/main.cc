@@ -35,9 +35,15 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario, link::LinkOpti
   SteadyClock clock;
   const Resumed resumed = flags.resume.value_or(Resumed{});
   const auto session = flags.resume ? std::optional(resumed.session) : std::nullopt;
+  // One that has a place keeps it; one that waits for its first can start again at once.
+  const auto starts_again = [&] { return !flags.resume && link.SharedMemoryIsGone(); };
   const auto entry = Join(
       {.link = &link, .clock = &clock, .health = &health, .scenario = &scenario},
-      [&] { return stop.IsSet(); }, VehicleId{flags.id}, session);
+      [&] { return stop.IsSet() || starts_again(); }, VehicleId{flags.id}, session);
+  if (!entry && starts_again()) {
+    LogError(kSharedMemoryDeleted);
+    return WithoutLostMemory({0, NewFlags{}}, true);
+  }
   if (!entry) return {};
   if (!entry->accepted) return {2, {}};
   PublishIdentity({entry->vehicle, link.ParticipantText()});

@@ -1,5 +1,6 @@
 #include "services/vehicle_node/reception_monitor.h"
 
+#include "services/node/service_run.h"
 #include "services/runtime/process.h"
 
 namespace giveway {
@@ -11,16 +12,14 @@ constexpr Nanoseconds kCheckEvery = std::chrono::seconds(1);
 
 }  // namespace
 
-Remedy ReceptionMonitor::Update(SteadyTime now, bool scan) {
+Remedy ReceptionMonitor::Update(SteadyTime now, bool scan, bool settled) {
   if (scan) last_scan_ = now;
   if (scans_.Update(now, scan, link_.WorldSpeaks())) {
     LogError("the world speaks, but its scans do not arrive: starts itself again to hear it");
     return Remedy::kNewParticipant;
   }
-  if (link_.SharedMemoryIsGone()) {
-    LogError(
-        "its shared memory was deleted, newcomers cannot receive it: restarts itself over UDP "
-        "alone");
+  if (settled && link_.SharedMemoryIsGone()) {
+    LogError(kSharedMemoryDeleted);
     return Remedy::kNewParticipant;
   }
   if (now - last_scan_ < kSilence || now < next_check_) return Remedy::kNone;

@@ -19,8 +19,9 @@ class ReceptionMonitor {
  public:
   ReceptionMonitor(link::DriveLink* link, SteadyTime now) : link_(*link), scans_(now) {}
 
-  // Once a turn; `scan`: one came. Says in the log why, where there is a remedy.
-  Remedy Update(SteadyTime now, bool scan);
+  // Once a turn; `scan`: one came; `settled`: no order is being carried out that a restart would
+  // drop. Says in the log why, where there is a remedy.
+  Remedy Update(SteadyTime now, bool scan, bool settled);
 
  private:
   link::DriveLink& link_;

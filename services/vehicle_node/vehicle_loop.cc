@@ -121,7 +121,8 @@ void VehicleLoop::Turn(bool leaving) {
   log_.LogRefusals(inputs.beacons, vehicle_, woke);
   if (!leaving && !restarts_ && serve_orders_()) restarts_ = true;
   const bool looks = !leaving && !restarts_ && !lockstep_;
-  if (looks) remedy_ = reception_.Update(woke, inputs.scan.has_value());
+  // Until its first scan it may have to come back with the profiles it had before.
+  if (looks) remedy_ = reception_.Update(woke, inputs.scan.has_value(), !on_first_scan_);
   log_.LogFreshness(vehicle_, options_, inputs.now, woke);
   log_.LogBlackouts(link_.BlackoutsSince());
   if (inputs.scan && on_first_scan_) std::exchange(on_first_scan_, nullptr)();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "services/link/fastdds/packets_of_process.h"
+#include "services/node/service_run.h"
 #include "services/runtime/state_file.h"
 #include "services/world_node/event_line.h"
 #include "sim_world/geometry/ticks.h"
@@ -92,7 +93,8 @@ WorldEnd WorldLoop::Drive(const StopSignal& stop) {
     const bool goes = !resumed_with_ || fleet_->run.State() == RunState::kRunning;
     if (goes && options_.on_back) std::exchange(options_.on_back, nullptr)();
     const bool ordered = admin_.Serve();
-    if (!stop.IsSet() && (ordered || HasLostSharedMemory())) {
+    const bool settled = !options_.on_back;  // else what it came back for is not done
+    if (!stop.IsSet() && (ordered || (settled && HasLostSharedMemory()))) {
       link_.FlushAnswer(kFlushTimeout);  // a vehicle that misses the next scan halts
       return WorldEnd::kRestarts;
     }
@@ -104,8 +106,7 @@ WorldEnd WorldLoop::Drive(const StopSignal& stop) {
 
 bool WorldLoop::HasLostSharedMemory() {
   if (options_.lockstep || !link_.SharedMemoryIsGone()) return false;
-  LogError(
-      "its shared memory was deleted, newcomers cannot receive it: restarts itself over UDP alone");
+  LogError(kSharedMemoryDeleted);
   return true;
 }
 

@@ -1,14 +1,17 @@
 // Shared memory that is deleted while links use it, as by a cleaner of /dev/shm.
 #include "services/link/fastdds/shared_memory_watch.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "services/link/fastdds/profile_file.h"
 #include "services/link/observer_link.h"
 #include "services/link/raw_link.h"
+#include "services/link/world_link.h"
 #include "tests/link/fleet.h"
 
 namespace giveway::test {
@@ -57,6 +60,37 @@ TEST(DeletedSharedMemory, AnObserverThatLostItReceivesAVehicleThatStartsLater) {
   const BeaconingProcess seven(OptionsInSharedMemory(domain), VehicleId{7});
   EXPECT_TRUE(Eventually([&] { return !observer.Take().beacons.empty(); }));
   EXPECT_FALSE(LacksSegment());
+}
+
+// Regression: the world gives its events to a new reader again, and each was counted twice.
+TEST(DeletedSharedMemory, AnObserverThatLostItTakesNoEventTwice) {
+  const DomainLock domain;
+  link::WorldLink world(link::WithoutSharedMemory(OptionsInSharedMemory(domain)));
+  link::ObserverLink observer(OptionsInSharedMemory(domain));
+  std::vector<std::uint32_t> taken;
+  const auto take = [&] {
+    for (const WorldEvent& event : observer.Take().events) taken.push_back(event.seq);
+  };
+  const auto take_until = [&](std::uint32_t seq) {
+    return Eventually([&] {
+      take();
+      return !taken.empty() && taken.back() == seq;
+    });
+  };
+  const auto send = [&](std::uint32_t seq) {
+    world.SendEvent({.seq = seq, .epoch = WorldEpoch{5}, .text = "an event"});
+  };
+  send(1);
+  send(2);
+  ASSERT_TRUE(take_until(2));
+  DeleteOwnSharedMemory();
+  ASSERT_TRUE(Eventually([&] {
+    take();
+    return !LacksSegment();
+  }));
+  send(3);
+  ASSERT_TRUE(take_until(3));
+  EXPECT_THAT(taken, testing::ElementsAre(1, 2, 3));
 }
 
 TEST(DeletedSharedMemory, ARecorderThatLostItReceivesAVehicleThatStartsLater) {

@@ -71,7 +71,10 @@ struct Ros2Link::Impl {
   std::map<std::string, dds::DataWriter*> writers;  // by the topic's name in ROS
 };
 
-Ros2Link::Ros2Link(const LinkOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+// Over UDP alone: ROS 2's programs start when they like, and one that starts after shared memory
+// was deleted would not receive it.
+Ros2Link::Ros2Link(const LinkOptions& options)
+    : impl_(std::make_unique<Impl>(WithoutSharedMemory(options))) {}
 Ros2Link::~Ros2Link() = default;
 
 bool Ros2Link::Write(const ros2::Message& message) {

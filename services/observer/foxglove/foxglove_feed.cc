@@ -49,9 +49,13 @@ void FoxgloveFeed::Open(std::uint64_t wanted, SteadyTime now) {
       open_ |= std::uint64_t{1} << topic;
     }
   } catch (const std::exception& error) {
-    LogWarning("cannot read for Foxglove, repeats it in 5 s: " + std::string(error.what()));
-    not_before_ = now + kRetry;
+    RetryAfter(error, now);
   }
+}
+
+void FoxgloveFeed::RetryAfter(const std::exception& error, SteadyTime now) {
+  LogWarning("cannot read for Foxglove, repeats it in 5 s: " + std::string(error.what()));
+  not_before_ = now + kRetry;
 }
 
 void FoxgloveFeed::Turn(SteadyTime now) {
@@ -68,11 +72,17 @@ void FoxgloveFeed::Turn(SteadyTime now) {
   if (link_ == nullptr) return;
   std::vector<link::RawSample> samples;
   std::uint64_t kept = 0;
-  link_->Take([&](link::RawSample sample) {
-    const bool durable = link_->IsDurable(sample.topic);
-    if (durable) kept |= std::uint64_t{1} << sample.topic;
-    if (durable || Has(wanted, sample.topic)) samples.push_back(std::move(sample));
-  });
+  try {
+    link_->Take([&](link::RawSample sample) {
+      const bool durable = link_->IsDurable(sample.topic);
+      if (durable) kept |= std::uint64_t{1} << sample.topic;
+      if (durable || Has(wanted, sample.topic)) samples.push_back(std::move(sample));
+    });
+  } catch (const link::LinkError& error) {  // it could not replace its participant
+    link_.reset();
+    open_ = 0;
+    RetryAfter(error, now);
+  }
   if (!samples.empty()) server_.Publish(std::move(samples), kept);
 }
 

@@ -26,6 +26,7 @@ class FoxgloveFeed {
 
  private:
   void Open(std::uint64_t wanted, SteadyTime now);
+  void RetryAfter(const std::exception& error, SteadyTime now);
 
   const link::LinkOptions fleet_;
   FoxgloveServer server_;

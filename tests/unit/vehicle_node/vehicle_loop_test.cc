@@ -246,6 +246,12 @@ TEST(VehicleLoop, WhoseSharedMemoryWasDeletedRestartsForANewParticipant) {
   EXPECT_EQ(std::ranges::count(bench.Link().Calls(), "leave notice"), 3);
 }
 
+TEST(VehicleLoop, InLockstepKeepsDrivingWithoutItsSharedMemory) {
+  LoopBench bench(ScanOnly, {.lockstep = true});
+  bench.Link().DeleteSharedMemory();
+  EXPECT_NE(bench.Drive(), DriveEnd::kRestarts);
+}
+
 TEST(VehicleLoop, WhoseInterfaceChangedEndsWithoutAWord) {
   LoopBench bench([](std::uint32_t turn) {
     Arrival arrival;
