@@ -183,7 +183,7 @@ OwnPose Vehicle::AssessOwnPose() {
           .lost = motion.pose.lost};
 }
 
-OwnMotion Vehicle::AssessOwnMotion() {
+OwnMotion Vehicle::AssessOwnMotion(const OwnPose& pose) {
   const WheelSpeeds wheels = state_->motion.wheels;
   const Twist twist = TwistFromWheels(options_.profile.drive, wheels);
   OwnMotion motion{.speed_m_s = twist.forward_m_s,
@@ -193,7 +193,7 @@ OwnMotion Vehicle::AssessOwnMotion() {
                    .interest_radius_m = InterestRadius(options_.profile)};
   motion.slows_m =
       StoppingDistance(options_.cruise_m_s, motion.reaction_s, options_.profile.deceleration_m_s2);
-  motion.sweeps_m = OwnSweep(motion, options_);
+  motion.sweeps_m = OwnSweep(motion, pose.covariance, options_);
   // The printed scripts know no peers.
   motion.turns = options_.behaviour != Behaviour::kLecturePrinted &&
                  NoteTurning(motion.turn_rad_s, state_->world.tick, &state_->movers);
@@ -228,7 +228,7 @@ OwnView Vehicle::AssessSelf(const Inputs& inputs) {
                       .leaving = inputs.leaving,
                       .halting = inputs.halting};
   const OwnPose pose = AssessOwnPose();
-  const OwnMotion motion = AssessOwnMotion();
+  const OwnMotion motion = AssessOwnMotion(pose);
   const OwnCourse course = UpdatePath(pose, options_, &state.route, &state.progress);
   const SensorsNow sensors{.ranges = state.sensed.ranges,
                            .echoes = echoes_,

@@ -71,7 +71,7 @@ class Vehicle {
   // The stages of a situation: situation/situation.h.
   OwnView AssessSelf(const Inputs& inputs);
   OwnPose AssessOwnPose();
-  OwnMotion AssessOwnMotion();
+  OwnMotion AssessOwnMotion(const OwnPose& pose);
   Lights AssessSignals(const Moment& moment, const OwnMotion& motion, const OwnCourse& course);
   PeersNow AssessSurroundings(const OwnView& own);
   PeersNow AssessPeers(const OwnView& own);

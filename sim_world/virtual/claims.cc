@@ -10,7 +10,6 @@ namespace {
 
 // Rounding, and how far a tick of turning bends a straight stopping path.
 constexpr double kClaimSlack_m = 0.01;
-constexpr double kClaimSigmas = 2;  // as the vehicles allow for
 
 bool Holds(const Claim& claim, double body_radius_m, double slack_m, Vec2 centre_world) {
   const Vec2 offset = centre_world - claim.axis.from_world;
@@ -23,13 +22,14 @@ bool Holds(const Claim& claim, double body_radius_m, double slack_m, Vec2 centre
 }  // namespace
 
 Claims::Claims(const Scenario& scenario) : dt_s_(Seconds(scenario.tick_period)) {
-  const auto lasts = static_cast<std::uint32_t>(kClaimLasts_s / dt_s_);
-  oldest_ticks_ = std::clamp<std::uint32_t>(lasts, 2, kKept - 1);
+  // The least that is judged is a beacon that was just received, however long a tick.
+  oldest_ticks_ = std::max<std::uint32_t>(2, static_cast<std::uint32_t>(kClaimLasts_s / dt_s_));
   for (const VehicleOptions& options : scenario.vehicles) {
     const std::uint32_t fresh = TicksCovering(options.beacon_age_limit, scenario.tick_period);
     fresh_ticks_ = std::clamp<std::uint32_t>(fresh + 1, fresh_ticks_, oldest_ticks_);
     tracks_.push_back({.deceleration_m_s2 = options.profile.deceleration_m_s2,
-                       .reaction_s = 2 * dt_s_ + Seconds(options.sonar_refresh)});
+                       .reaction_s = 2 * dt_s_ + Seconds(options.sonar_refresh),
+                       .said = std::vector<SentBeacon>(oldest_ticks_ + 1)});
   }
 }
 
@@ -40,12 +40,12 @@ Claims::SentBeacon Claims::Keep(const Beacon& beacon) {
           .course = {.forward_world = {Cos(heading_rad), Sin(heading_rad)},
                      .speed_m_s = twist.forward_m_s,
                      .turn_rad_s = twist.turn_rad_s},
-          .slack_m = kClaimSlack_m + kClaimSigmas * SigmaPosition(beacon.covariance)};
+          .slack_m = kClaimSlack_m + kPoseSigmas * SigmaPosition(beacon.covariance)};
 }
 
 const Claims::SentBeacon* Claims::SaidBefore(Tick tick, std::uint32_t ago, const Track& track) {
   if (Number(tick) <= ago) return nullptr;
-  const SentBeacon& said = track.said[(Number(tick) - ago) % kKept];
+  const SentBeacon& said = track.said[(Number(tick) - ago) % track.said.size()];
   const Tick then = said.beacon.tick;
   return then != kNoTick && TicksBetween(then, tick) == ago ? &said : nullptr;
 }
@@ -98,7 +98,8 @@ std::span<const std::uint32_t> Claims::Observe(Tick tick, std::span<const Observ
         !now.present || (StaysWhileBraking(tick, now, &track) && StaysInAll(tick, now, track));
     if (!inside && !track.reported) left_.push_back(i);
     track.reported = !inside;
-    if (now.lives && now.beacon->tick == tick) track.said[Number(tick) % kKept] = Keep(*now.beacon);
+    if (now.lives && now.beacon->tick == tick)
+      track.said[Number(tick) % track.said.size()] = Keep(*now.beacon);
   }
   return left_;
 }

@@ -5,7 +5,6 @@
 // claimed when it started, turning or not.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -27,9 +26,6 @@ class Claims {
   std::span<const std::uint32_t> Observe(Tick tick, std::span<const Observed> vehicles);
 
  private:
-  // As many beacons as peers keep clear of where all later ones are lost, at the usual 20 a second.
-  static constexpr std::size_t kKept = 24;
-
   // A beacon, and what each claim by it is made of.
   struct SentBeacon {
     Beacon beacon;
@@ -39,8 +35,8 @@ class Claims {
   struct Track {
     double deceleration_m_s2 = 0;
     double reaction_s = 0;
-    std::array<SentBeacon, kKept> said{};  // [tick % kKept]
-    std::optional<Claim> braking;          // of when it started to brake; empty: it does not
+    std::vector<SentBeacon> said;  // [tick % size], as many as peers keep clear of
+    std::optional<Claim> braking;  // of when it started to brake; empty: it does not
     double braking_slack_m = 0;
     bool reported = false;
   };

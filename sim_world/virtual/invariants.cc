@@ -10,8 +10,7 @@ namespace giveway::sim {
 namespace {
 
 constexpr std::uint32_t kUnknown = 0xffffffff;
-// How far a vehicle may be from the pose it publishes: the uncertainty it publishes, and a little.
-constexpr double kPoseSigmas = 3;
+// How far a vehicle may be from the pose it publishes, beyond the uncertainty it publishes.
 constexpr double kPoseSlack_m = 0.1;
 // Within this distance of where it stood it has not moved on.
 constexpr double kOnePlace_m = 0.1;

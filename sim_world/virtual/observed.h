@@ -9,6 +9,8 @@ namespace giveway::sim {
 
 // Slower is standing.
 inline constexpr double kStandstill_m_s = 0.01;
+// A vehicle may be off the pose it publishes by so many of the standard deviations it publishes.
+inline constexpr double kPoseSigmas = 3;
 
 struct Observed {
   VehicleId vehicle = kNoVehicle;

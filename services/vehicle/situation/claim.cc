@@ -53,11 +53,23 @@ double MostTurn(const Beacon& beacon, double turn_rad_s, double unknown_s) {
   return std::min(kTurnWhileDriving_rad_s, Magnitude(turn_rad_s) + change_rad_s);
 }
 
+// How fast the sender of `beacon` may turn once its centre moves at speed_m_s, unknown_s after it
+// stood: its outer rim does no more than speed up.
+double TurnSettingOff(const Beacon& beacon, const Course& course, double speed_m_s,
+                      double unknown_s) {
+  const double outer_m_s = Magnitude(course.speed_m_s) +
+                           Magnitude(course.turn_rad_s) * beacon.drive.axle_m / 2 +
+                           beacon.acceleration_m_s2 * unknown_s;
+  return std::max(0.0, outer_m_s - speed_m_s) * 2 / beacon.drive.axle_m;
+}
+
 }  // namespace
 
-double SwingOf(double turn_rad_s, double steady_s, double speed_m_s, double deceleration_m_s2) {
+double SwingOf(double turn_rad_s, double steady_s, double speed_m_s, double deceleration_m_s2,
+               const PoseCovariance& covariance) {
   const double braking_s = speed_m_s / deceleration_m_s2;
-  return std::min(1.0, Magnitude(turn_rad_s) * (steady_s + braking_s / 3));
+  const double off_rad = kSigmas * SigmaHeading(covariance);
+  return std::min(1.0, off_rad + Magnitude(turn_rad_s) * (steady_s + braking_s / 3));
 }
 
 double TurnRollsOn(double turn_rad_s, double axle_m, double deceleration_m_s2) {
@@ -91,18 +103,22 @@ Claim ClaimOf(const Beacon& beacon, const Course& course, double unknown_s, doub
                        ? 0
                        : ClaimLength(beacon, pace_m_s, unknown_s, reaction_s);
   claim.radius_m = beacon.body_radius_m;
+  const double turn_rad_s = MostTurn(beacon, course.turn_rad_s, unknown_s);
   // From standstill it may leave in any direction.
   if (Magnitude(speed) < kStands_m_s) {
+    const double sets_off_rad_s =
+        std::min(turn_rad_s,
+                 TurnSettingOff(beacon, course, MostSpeed(beacon, pace_m_s, unknown_s), unknown_s));
+    claim.length_m += TurnRollsOn(sets_off_rad_s, beacon.drive.axle_m, beacon.deceleration_m_s2);
     claim.radius_m += claim.length_m;
     return claim;
   }
-  // It may turn: the far end swings.
-  const double turn_rad_s = MostTurn(beacon, course.turn_rad_s, unknown_s);
   claim.length_m += TurnRollsOn(turn_rad_s, beacon.drive.axle_m, beacon.deceleration_m_s2);
+  // It may turn: the far end swings.
   const double outer_m_s =
       MostSpeed(beacon, pace_m_s, unknown_s) + Magnitude(turn_rad_s) * beacon.drive.axle_m / 2;
   claim.radius_m += claim.length_m * SwingOf(turn_rad_s, unknown_s + reaction_s, outer_m_s,
-                                             beacon.deceleration_m_s2);
+                                             beacon.deceleration_m_s2, beacon.covariance);
   return claim;
 }
 

@@ -14,6 +14,9 @@
 
 namespace giveway {
 
+// What is not known of a pose is allowed for by so many standard deviations.
+inline constexpr double kSigmas = 2;
+
 // After a longer silence nothing can be said of a peer; the ultrasonics and PeerLost take over.
 inline constexpr double kClaimLasts_s = 1.0;
 
@@ -39,8 +42,10 @@ struct Course {
 // Lateral deviation from the straight stopping path, at most and as a share of that path's length,
 // of a vehicle that turns at turn_rad_s for steady_s and until it stands, braking from speed_m_s.
 // The lateral displacement of an arc: the integral of v(t) * turn * t, with v falling evenly a
-// third of its length times the angle. Never above 1, for no arc leads further than its length.
-double SwingOf(double turn_rad_s, double steady_s, double speed_m_s, double deceleration_m_s2);
+// third of its length times the angle. To that comes kSigmas of the heading, which points the path
+// elsewhere from its start. Never above 1, for no arc leads further than its length.
+double SwingOf(double turn_rad_s, double steady_s, double speed_m_s, double deceleration_m_s2,
+               const PoseCovariance& covariance);
 
 // By how much turning lengthens the stopping path: when the inner rim stands the outer one still
 // rolls, and the centre slows down half as fast. (turn * axle / 2)^2 / (2 * deceleration).

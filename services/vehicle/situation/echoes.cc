@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "services/types/math/math.h"
+#include "services/vehicle/situation/claim.h"
 
 namespace giveway {
 namespace {

@@ -25,12 +25,13 @@ double OwnStoppingDistance(const OwnView& s) {
          kInHand_m;
 }
 
-double OwnSweep(const OwnMotion& s, const VehicleOptions& options) {
+double OwnSweep(const OwnMotion& s, const PoseCovariance& covariance,
+                const VehicleOptions& options) {
   const double speed = std::max(0.0, s.speed_m_s);
   const double steady_s = Seconds(options.tick_period) + s.reaction_s;
   const double deceleration_m_s2 = options.profile.deceleration_m_s2;
   return StoppingDistance(speed, steady_s, deceleration_m_s2) *
-         SwingOf(s.turn_rad_s, steady_s, speed, deceleration_m_s2);
+         SwingOf(s.turn_rad_s, steady_s, speed, deceleration_m_s2, covariance);
 }
 
 double StoppingDistanceOf(const CarriedPeer& view, const OwnView& s) {

@@ -221,8 +221,6 @@ struct Situation {
 inline constexpr double kStandingSpeed_m_s = 0.01;
 // The distance to a goal that there is none of.
 inline constexpr double kNoGoal_m = 1e6;
-// What is not known of a distance is allowed for by so many standard deviations.
-inline constexpr double kSigmas = 2;
 // Kept between two shells beyond what geometry and uncertainty ask for.
 inline constexpr double kPassingMargin_m = 0.2;
 // Kept from a claim on top of the uncertainty: steering bends the straight path a little.
@@ -239,8 +237,10 @@ inline double ReactionSeconds(const VehicleOptions& options) {
 // Distance this vehicle needs to stand still from its present speed, with one tick in hand.
 double OwnStoppingDistance(const OwnView& s);
 
-// How far from its straight stopping path this vehicle ends, turning as it does now.
-double OwnSweep(const OwnMotion& s, const VehicleOptions& options);
+// How far from its straight stopping path this vehicle may end, turning as it does now, with a
+// heading that is not known better than the covariance says.
+double OwnSweep(const OwnMotion& s, const PoseCovariance& covariance,
+                const VehicleOptions& options);
 
 // Distance the peer needs to stand still from its present speed, by what it says of its brakes.
 double StoppingDistanceOf(const CarriedPeer& view, const OwnView& s);

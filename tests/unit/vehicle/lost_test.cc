@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "services/types/math/math.h"
+#include "services/vehicle/situation/claim.h"
 #include "services/vehicle/situation/situation.h"
 #include "tests/support/brain_bench.h"
 #include "tests/support/onlooker.h"
