@@ -38,13 +38,34 @@ run_of() {
 
 asan13() { run_of asan; }
 
-# end_of_background FILE: waits for the process `meanwhile` (the engine is in the background too), and prints
-# what it wrote to FILE and FILE.log.
+# in_background FILE COMMAND...: starts it as the process `meanwhile`, which writes to FILE and FILE.log. In a
+# process group of its own, so that it can be ended with all its children; without one it would ignore Ctrl-C.
+meanwhile=''
+in_background() {
+  local file=$1
+  shift
+  set -m
+  "$@" >"$file" 2>"$file.log" &
+  meanwhile=$!
+  set +m
+}
+
+# end_of_background FILE: waits for `meanwhile` (the engine is in the background too), and prints what it wrote.
 end_of_background() {
-  wait "$meanwhile"
+  wait "$meanwhile" || echo "FAILED  what ran in the background ended with exit code $?"
+  meanwhile=''
   cat "$1.log" >&2
   cat "$1"
   rm -f "$1" "$1.log"
+}
+
+# Its drills remove their containers as they end, so the engine goes last.
+stop_all() {
+  if [[ -n $meanwhile ]]; then
+    kill -- "-$meanwhile" 2>/dev/null || true
+    wait "$meanwhile" 2>/dev/null || true
+  fi
+  engine_down
 }
 
 # It takes a given time, and only computes: at idle priority it delays no test that waits for a deadline.
@@ -63,8 +84,7 @@ debian13() {
   base_image "$SUITE"
   run_of asan_link
   printed=$(mktemp)
-  fuzz_meanwhile >"$printed" 2>"$printed.log" &
-  meanwhile=$!
+  in_background "$printed" fuzz_meanwhile
   case_of "known vulnerabilities against the packages of Debian 13" debian13 --exposure
   bash "$HERE/debian13.sh" --system "${scripts[@]}" || true
   build_image vehicle
@@ -81,20 +101,22 @@ drills() {
   case_of "eight cross while things happen, $1" rough_crossing "$1"
 }
 
+second_half() {
+  local kills=20
+  [[ ${GIVEWAY_FULL:-} != true ]] || kills=200
+  export GIVEWAY_DRILL=2
+  [[ $SUITE == bookworm ]] || drills servers
+  case_of "stops, and $kills kill -9 restarts" shutdown "$kills"
+}
+
 # Two fleets at a time, each on a network of its own: most of a drill is waiting.
 containers() {
-  local kills=20 printed
-  [[ ${GIVEWAY_FULL:-} != true ]] || kills=200
+  local printed
   base_image "$SUITE"
   for target in world vehicle tools; do build_image "$target"; done
   case_of "images" images
   printed=$(mktemp)
-  {
-    export GIVEWAY_DRILL=2
-    [[ $SUITE == bookworm ]] || drills servers
-    case_of "stops, and $kills kill -9 restarts" shutdown "$kills"
-  } >"$printed" 2>"$printed.log" &
-  meanwhile=$!
+  in_background "$printed" second_half
   drills multicast
   case_of "bad input" bad_input
   end_of_background "$printed"
@@ -106,6 +128,6 @@ engine_up
 if [[ $1 == images && -n ${GIVEWAY_ENGINE_FILE:-} ]]; then
   printf '%s' "${ENGINE:-}" >"$GIVEWAY_ENGINE_FILE"
 else
-  trap engine_down EXIT
+  trap stop_all EXIT
 fi
 "$1"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Whether fleets spend their time as they did when bounds.txt was recorded: in each of its runs the mean delay,
-# the stops, what is taken back, and the time by each rule, over hundreds of seeds. Virtual time is
+# Whether fleets spend their time as they did when bounds.txt was recorded: in each of its runs contacts, who did
+# not arrive, the mean delay, the stops, and the time by each rule, over hundreds of seeds. Virtual time is
 # deterministic, and what the radio loses moves most of these means by a thousandth or two: what moves one out of
 # its bounds (figures.sh) is another brain. That may be a better one; record it, and say in the commit why.
 # What no single tick shows is seen here: a vehicle that stops too soon, or drives on too late.

@@ -6,10 +6,11 @@
 # enough for one draw of the radio in ten.
 readonly figures_share=0.02 figures_by=0.03
 
-# figures: of the JSON of `fleetctl virtual` on stdin, "NAME VALUE" a line: means over all vehicles.
+# figures: of the JSON of `fleetctl virtual` on stdin, "NAME VALUE" a line: contacts and vehicles that did not
+# arrive, counted over all runs, and means over all vehicles.
 figures() {
-  jq -er 'select(.verdict != "not_run") |
-    "delay_s \(.delay_s.mean // 0)", "arrived \(.arrived / .vehicles)", "stops \(.traffic.stops)",
+  jq -er 'select(.verdict != "not_run") | "contacts \(.contacts)", "missing \(.vehicles - .arrived)",
+    "delay_s \(.delay_s.mean // 0)", "stops \(.traffic.stops)",
     "taken_back \(.traffic.taken_back)", (.traffic.by_rule[] | "\(.rule)_s \(.mean_s)")'
 }
 

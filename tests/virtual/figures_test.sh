@@ -13,9 +13,9 @@ expect() {
   failed=1
 }
 
-readonly report='{"verdict":"failed","vehicles":8,"arrived":6,"delay_s":{"mean":2.5},"traffic":{"by_rule":
+readonly report='{"verdict":"failed","vehicles":8,"arrived":6,"contacts":1,"delay_s":{"mean":2.5},"traffic":{"by_rule":
   [{"rule":"cruise","mean_s":30}],"stops":0.5,"taken_back":2}}'
-expect "the figures of a report" $'delay_s 2.5\narrived 0.75\nstops 0.5\ntaken_back 2\ncruise_s 30' \
+expect "the figures of a report" $'contacts 1\nmissing 2\ndelay_s 2.5\nstops 0.5\ntaken_back 2\ncruise_s 30' \
   "$(figures <<<"$report")"
 ! figures <<<'{"verdict":"not_run"}' || expect "a run that was not run" "an error" "figures"
 
