@@ -80,7 +80,8 @@ double TurnRollsOn(double turn_rad_s, double axle_m, double deceleration_m_s2) {
 double ClaimLength(const Beacon& beacon, double speed_m_s, double unknown_s, double reaction_s) {
   const double pace = Magnitude(speed_m_s);
   const double fastest = MostSpeed(beacon, pace, unknown_s);
-  return (pace + fastest) / 2 * unknown_s +
+  const double gained = fastest - pace;
+  return fastest * unknown_s - gained * gained / (2 * beacon.acceleration_m_s2) +
          StoppingDistance(fastest, reaction_s, beacon.deceleration_m_s2);
 }
 
@@ -104,13 +105,15 @@ Claim ClaimOf(const Beacon& beacon, const Course& course, double unknown_s, doub
                        : ClaimLength(beacon, pace_m_s, unknown_s, reaction_s);
   claim.radius_m = beacon.body_radius_m;
   const double turn_rad_s = MostTurn(beacon, course.turn_rad_s, unknown_s);
-  // From standstill it may leave in any direction.
-  if (Magnitude(speed) < kStands_m_s) {
+  // From standstill it may leave in any direction, and forward from a reverse that it can stop.
+  const bool can_stop = -speed < beacon.deceleration_m_s2 * unknown_s;
+  if (Magnitude(speed) < kStands_m_s || (speed < 0 && can_stop)) {
     const double sets_off_rad_s =
         std::min(turn_rad_s,
                  TurnSettingOff(beacon, course, MostSpeed(beacon, pace_m_s, unknown_s), unknown_s));
     claim.length_m += TurnRollsOn(sets_off_rad_s, beacon.drive.axle_m, beacon.deceleration_m_s2);
     claim.radius_m += claim.length_m;
+    claim.length_m = 0;
     return claim;
   }
   claim.length_m += TurnRollsOn(turn_rad_s, beacon.drive.axle_m, beacon.deceleration_m_s2);

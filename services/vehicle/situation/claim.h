@@ -51,7 +51,9 @@ double SwingOf(double turn_rad_s, double steady_s, double speed_m_s, double dece
 // rolls, and the centre slows down half as fast. (turn * axle / 2)^2 / (2 * deceleration).
 double TurnRollsOn(double turn_rad_s, double axle_m, double deceleration_m_s2);
 
-// How far the sender of `beacon`, driving straight on at speed_m_s, may come before it stands.
+// How far the sender of `beacon`, driving straight on at speed_m_s, may come before it stands: it
+// speeds up until it is at its fastest, keeps that up until unknown_s and its reaction are over,
+// and brakes.
 double ClaimLength(const Beacon& beacon, double speed_m_s, double unknown_s, double reaction_s);
 
 // True if the length of its claim is surely no more than length_m, however much of a second is

@@ -76,9 +76,9 @@ TEST_F(ClaimsTest, OneThatBrakesOnAnArcLeavesThem) {
 TEST_F(ClaimsTest, AnOldClaimHoldsAsLongAsPeersKeepClearOfIt) {
   Claims claims(scenario_);
   std::size_t left = 0;
-  for (int i = 0; i < 18; ++i) left += Drive(0.3, 0.043, &claims);
+  for (int i = 0; i < 18; ++i) left += Drive(0.3, 0.0445, &claims);
   EXPECT_EQ(left, 0U);
-  for (int i = 0; i < 6; ++i) left += Drive(0.3, 0.043, &claims);
+  for (int i = 0; i < 6; ++i) left += Drive(0.3, 0.0445, &claims);
   EXPECT_EQ(left, 1U);
 }
 
