@@ -102,24 +102,24 @@ drills() {
 }
 
 second_half() {
-  local kills=20
-  [[ ${GIVEWAY_FULL:-} != true ]] || kills=200
   export GIVEWAY_DRILL=2
-  [[ $SUITE == bookworm ]] || drills servers
-  case_of "stops, and $kills kill -9 restarts" shutdown "$kills"
+  drills servers
 }
 
-# Two fleets at a time, each on a network of its own: most of a drill is waiting.
+# Two fleets at a time, each on a network of its own: most of a drill is waiting. What holds stops to a second
+# runs alone.
 containers() {
-  local printed
+  local kills=20 printed
+  [[ ${GIVEWAY_FULL:-} != true ]] || kills=200
   base_image "$SUITE"
   for target in world vehicle tools; do build_image "$target"; done
   case_of "images" images
   printed=$(mktemp)
-  in_background "$printed" second_half
+  [[ $SUITE == bookworm ]] || in_background "$printed" second_half
   drills multicast
   case_of "bad input" bad_input
-  end_of_background "$printed"
+  [[ $SUITE == bookworm ]] || end_of_background "$printed"
+  case_of "stops, and $kills kill -9 restarts" shutdown "$kills"
 }
 
 mapfile -t wanted < <(container_packages)
