@@ -53,6 +53,12 @@ double MostTurn(const Beacon& beacon, double turn_rad_s, double unknown_s) {
   return std::min(kTurnWhileDriving_rad_s, Magnitude(turn_rad_s) + change_rad_s);
 }
 
+// From standstill it may leave in any direction, and forward from a reverse that it can stop.
+bool MayLeaveAnywhere(const Beacon& beacon, double speed_m_s, double unknown_s) {
+  if (Magnitude(speed_m_s) < kStands_m_s) return true;
+  return speed_m_s < 0 && -speed_m_s < beacon.deceleration_m_s2 * unknown_s;
+}
+
 // How fast the sender of `beacon` may turn once its centre moves at speed_m_s, unknown_s after it
 // stood: its outer rim does no more than speed up.
 double TurnSettingOff(const Beacon& beacon, const Course& course, double speed_m_s,
@@ -104,22 +110,20 @@ Claim ClaimOf(const Beacon& beacon, const Course& course, double unknown_s, doub
                        ? 0
                        : ClaimLength(beacon, pace_m_s, unknown_s, reaction_s);
   claim.radius_m = beacon.body_radius_m;
+  const double fastest_m_s = MostSpeed(beacon, pace_m_s, unknown_s);
   const double turn_rad_s = MostTurn(beacon, course.turn_rad_s, unknown_s);
-  // From standstill it may leave in any direction, and forward from a reverse that it can stop.
-  const bool can_stop = -speed < beacon.deceleration_m_s2 * unknown_s;
-  if (Magnitude(speed) < kStands_m_s || (speed < 0 && can_stop)) {
-    const double sets_off_rad_s =
-        std::min(turn_rad_s,
-                 TurnSettingOff(beacon, course, MostSpeed(beacon, pace_m_s, unknown_s), unknown_s));
-    claim.length_m += TurnRollsOn(sets_off_rad_s, beacon.drive.axle_m, beacon.deceleration_m_s2);
-    claim.radius_m += claim.length_m;
+  const auto rolls_on_m = [&beacon](double turn) {
+    return TurnRollsOn(turn, beacon.drive.axle_m, beacon.deceleration_m_s2);
+  };
+  if (MayLeaveAnywhere(beacon, speed, unknown_s)) {
+    const double setting_off = TurnSettingOff(beacon, course, fastest_m_s, unknown_s);
+    claim.radius_m += claim.length_m + rolls_on_m(std::min(turn_rad_s, setting_off));
     claim.length_m = 0;
     return claim;
   }
-  claim.length_m += TurnRollsOn(turn_rad_s, beacon.drive.axle_m, beacon.deceleration_m_s2);
+  claim.length_m += rolls_on_m(turn_rad_s);
   // It may turn: the far end swings.
-  const double outer_m_s =
-      MostSpeed(beacon, pace_m_s, unknown_s) + Magnitude(turn_rad_s) * beacon.drive.axle_m / 2;
+  const double outer_m_s = fastest_m_s + Magnitude(turn_rad_s) * beacon.drive.axle_m / 2;
   claim.radius_m += claim.length_m * SwingOf(turn_rad_s, unknown_s + reaction_s, outer_m_s,
                                              beacon.deceleration_m_s2, beacon.covariance);
   return claim;

@@ -20,7 +20,7 @@ inline constexpr double kSigmas = 2;
 // After a longer silence nothing can be said of a peer; the ultrasonics and PeerLost take over.
 inline constexpr double kClaimLasts_s = 1.0;
 
-// A stadium: all points within radius_m of the first length_m of the axis.
+// A stadium: all points within radius_m of the first length_m of the axis; a disc without length.
 struct Claim {
   Path axis;
   double length_m = 0;
