@@ -20,9 +20,8 @@ inline constexpr std::size_t kRuleCount = static_cast<std::size_t>(kLastRule) + 
 struct TrafficFigures {
   // By rule: how long vehicles that had not arrived drove or stood by it.
   std::array<std::uint64_t, kRuleCount> by_rule_ns{};
-  std::uint64_t stops = 0;  // before the goal; starting to move is none
-  std::uint64_t taken_back =
-      0;  // gave way to one vehicle, and then to none or another: passing too
+  std::uint64_t stops = 0;       // before the goal; starting to move is none
+  std::uint64_t taken_back = 0;  // gave way to one vehicle, then to none or another; passing too
 
   TrafficFigures& operator+=(const TrafficFigures& other);
 };

@@ -246,6 +246,18 @@ TEST(VehicleLoop, WhoseSharedMemoryWasDeletedRestartsForANewParticipant) {
   EXPECT_EQ(std::ranges::count(bench.Link().Calls(), "leave notice"), 3);
 }
 
+// What it came back for, an operator's order, is reported as done with the first scan.
+TEST(VehicleLoop, WhoseSharedMemoryWasDeletedRestartsNoSoonerThanItsFirstScan) {
+  LoopBench bench([](std::uint32_t turn) {
+    Arrival arrival;
+    if (turn >= 30) arrival.scan = Scan(turn);
+    return arrival;
+  });
+  bench.Link().DeleteSharedMemory();
+  EXPECT_EQ(bench.Drive(), DriveEnd::kRestarts);
+  EXPECT_EQ(bench.FirstScans().size(), 1U);
+}
+
 TEST(VehicleLoop, InLockstepKeepsDrivingWithoutItsSharedMemory) {
   LoopBench bench(ScanOnly, {.lockstep = true});
   bench.Link().DeleteSharedMemory();
