@@ -7,6 +7,8 @@
 #include <numeric>
 #include <vector>
 
+#include "services/types/math/math.h"
+
 namespace giveway {
 namespace {
 
@@ -120,9 +122,9 @@ double NeededForStanding(const VehicleOptions& own) {
   return BrakingDistance(own) + Fastest(own) * ReactionSeconds(own);
 }
 
-void CheckStanding(const Driver& driver) {
+void CheckStanding(const Driver& driver, SonarTier tier) {
   const VehicleOptions& own = *driver.options;
-  if (CanStopForStanding(own)) return;
+  if (CanStopForStanding(own, tier)) return;
   const double reaction_s = ReactionSeconds(own);
   const double needed_m = NeededForStanding(own);
   driver.section->AddError(
@@ -130,10 +132,9 @@ void CheckStanding(const Driver& driver) {
       fmt::format("{} at {:.3g} m/s (a seed's 2 % included) could not stop before a wall or an "
                   "obstacle: braking "
                   "{:.2f} m (at {:.3g} m/s^2) and {:.2f} m in the {:.0f} ms until it brakes "
-                  "are {:.2f} m, but its ultrasonics reach {:.2f} m",
+                  "are {:.2f} m, but its ultrasonics surely hear what stands ahead from {:.2f} m",
                   driver.name, Fastest(own), BrakingDistance(own), own.profile.deceleration_m_s2,
-                  Fastest(own) * reaction_s, 1000 * reaction_s, needed_m,
-                  own.profile.sonar_max_range_m),
+                  Fastest(own) * reaction_s, 1000 * reaction_s, needed_m, SureReach(own, tier)),
       "lower cruise_m_s, or raise profile.deceleration_m_s2");
 }
 
@@ -153,8 +154,21 @@ BrakingSum SumOf(const VehicleOptions& own, const VehicleOptions& peer, double d
   return sum;
 }
 
-bool CanStopForStanding(const VehicleOptions& own) {
-  return NeededForStanding(own) <= own.profile.sonar_max_range_m;
+double SureReach(const VehicleOptions& own, SonarTier tier) {
+  if (tier == SonarTier::kIdeal) return own.profile.sonar_max_range_m;
+  // Straight ahead lies midway between these two; see RobotModel::sonar.
+  const SensorMount& left = own.profile.sonar[3];
+  const SensorMount& right = own.profile.sonar[4];
+  const double midway_rad = (left.bearing_rad - right.bearing_rad) / 2;
+  const double sine = Sin(midway_rad) / Sin(own.profile.sonar_half_angle_rad);
+  const double from_mount_m = EdgeReachOff(EdgeReach(tier), std::min(1.0, sine * sine));
+  const double mount_m = std::min(left.position_body.x, right.position_body.x);
+  return std::min(own.profile.sonar_max_range_m,
+                  from_mount_m + mount_m - own.profile.body_radius_m);
+}
+
+bool CanStopForStanding(const VehicleOptions& own, SonarTier tier) {
+  return NeededForStanding(own) <= SureReach(own, tier);
 }
 
 void CheckBraking(const ReadScenario& read) {
@@ -162,7 +176,7 @@ void CheckBraking(const ReadScenario& read) {
   CheckPairs(drivers, LongestDelay(read.scenario));
   const Scenario& scenario = read.scenario;
   if (scenario.walls.empty() && scenario.obstacles.empty() && scenario.doors.empty()) return;
-  for (const Driver& driver : drivers) CheckStanding(driver);
+  for (const Driver& driver : drivers) CheckStanding(driver, scenario.sonar.tier);
 }
 
 }  // namespace giveway

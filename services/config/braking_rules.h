@@ -27,11 +27,16 @@ struct BrakingSum {
 // `delay_s` is the longest that the scenario holds a beacon back.
 BrakingSum SumOf(const VehicleOptions& own, const VehicleOptions& peer, double delay_s);
 
-// True if it stops for what stands within the reach of its ultrasonics.
-bool CanStopForStanding(const VehicleOptions& own);
+// How far before its shell a vehicle surely hears what stands in its path, m. Exact ultrasonics
+// hear all within their range; others may hear no more than an edge, and that last where it lies
+// midway between two cones. A face that they hear from further off may end where they do not.
+double SureReach(const VehicleOptions& own, SonarTier tier);
+
+// True if it stops for what stands within that.
+bool CanStopForStanding(const VehicleOptions& own, SonarTier tier);
 
 // Refuses vehicles and spawn places that could not stop for another of the scenario, and those that
-// could not stop for a wall, an obstacle or a door within the reach of their ultrasonics. One
+// could not stop for a wall, an obstacle or a door once their ultrasonics surely hear it. One
 // problem a vehicle at most, and of two the one that needs more is blamed.
 void CheckBraking(const ReadScenario& read);
 

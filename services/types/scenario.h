@@ -28,6 +28,28 @@ enum class SonarTier : std::uint8_t {
   kCrosstalk,  // transducers of different vehicles that fire in one slot hear each other
 };
 
+// How far off an edge, the weakest reflector, is heard on the axis of a cone, m; 0: corners are not
+// heard. Polaroid transducers hear the edges of cardboard and of door frames from about 2 m when it
+// is quiet; on a moving vehicle, with the gain that its schedule of 40 ms leaves, from less.
+constexpr double EdgeReach(SonarTier tier) {
+  switch (tier) {
+    case SonarTier::kIdeal:
+      return 0;
+    case SonarTier::kTypical:
+      return 2.0;
+    case SonarTier::kP3dx:
+    case SonarTier::kCrosstalk:
+      break;
+  }
+  return 1.5;
+}
+
+// The same in a direction off the axis: `off` is the square of its sine by that of the half angle,
+// 1 at the rim. There either way loses half the amplitude: 4 to the power of -2/3 is 0.4.
+constexpr double EdgeReachOff(double edge_reach_m, double off) {
+  return edge_reach_m * (1 - 0.6 * off);
+}
+
 // Numbers of the tiers above ideal. Sources: services/types/robot_model.h names the robot's.
 struct SonarModel {
   SonarTier tier = SonarTier::kIdeal;

@@ -63,21 +63,6 @@ class Listener {
 
 }  // namespace
 
-// Polaroid transducers hear the edges of cardboard and of door frames from about 2 m when it is
-// quiet; on a moving vehicle, with the gain that its schedule of 40 ms leaves, from less.
-double EdgeReach(SonarTier tier) {
-  switch (tier) {
-    case SonarTier::kIdeal:
-      return 0;
-    case SonarTier::kTypical:
-      return 2.0;
-    case SonarTier::kP3dx:
-    case SonarTier::kCrosstalk:
-      break;
-  }
-  return 1.5;
-}
-
 void HearCorners(const Scene& scene, const SonarRing& ring, const Pose& world_from_body, Owner self,
                  double edge_reach_m, std::uint32_t transducers, Lanes* range_m) {
   Listener listener(scene, ring, world_from_body, self, transducers, range_m);

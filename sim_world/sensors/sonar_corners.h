@@ -17,15 +17,6 @@
 
 namespace giveway::sim {
 
-// How far off an edge is heard on the axis of a cone, m; 0: corners are not heard.
-double EdgeReach(SonarTier tier);
-
-// The same in a direction off the axis: `off` is the square of its sine by that of the half angle,
-// 1 at the rim. There either way loses half the amplitude: 4 to the power of -2/3 is 0.4.
-inline double EdgeReachOff(double edge_reach_m, double off) {
-  return edge_reach_m * (1 - 0.6 * off);
-}
-
 // Lowers the ranges of the given transducers, one bit each, to those of the nearest corners they
 // hear. Occluded corners and those of `self` are not heard.
 void HearCorners(const Scene& scene, const SonarRing& ring, const Pose& world_from_body, Owner self,

@@ -79,7 +79,8 @@ bool FleetDraw::ComesOut(const VehicleOptions& options) const {
   const auto with = [&](const VehicleOptions& other) {
     return SumOf(options, other, delay_s_).ComesOut();
   };
-  return CanStopForStanding(options) && with(options) && std::ranges::all_of(taken_, with);
+  return CanStopForStanding(options, tier_.value_or(SonarTier::kIdeal)) && with(options) &&
+         std::ranges::all_of(taken_, with);
 }
 
 VehicleOptions FleetDraw::Draw(const VehicleOptions& plain) {

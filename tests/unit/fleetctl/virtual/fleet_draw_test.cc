@@ -34,7 +34,7 @@ TEST(FleetDraw, EveryFleetOfEveryGeneratorCanStop) {
   for (const sim::Generator& generator : sim::Generators()) {
     OnManySeeds(MixedOf(std::string(generator.name)), [&](const Scenario& scenario) {
       for (const VehicleOptions& own : scenario.vehicles) {
-        EXPECT_TRUE(CanStopForStanding(own)) << generator.name;
+        EXPECT_TRUE(CanStopForStanding(own, scenario.sonar.tier)) << generator.name;
         EXPECT_LE(own.profile.body_radius_m, generator.most_radius_m) << generator.name;
         for (const VehicleOptions& peer : scenario.vehicles) {
           EXPECT_TRUE(SumOf(own, peer, 0).ComesOut()) << generator.name;
