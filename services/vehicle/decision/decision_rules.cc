@@ -54,6 +54,21 @@ std::optional<Proposal> HeardPlace(const Situation& s) {
   return Proposal{.max_speed_m_s = limit, .may_turn = true, .rule = Rule::kObstacle};
 }
 
+// By how much it will have turned, on average, until it stands: brakes stop no turn before. What
+// echoes show of a slant is of kClosingTime_s ago.
+double TurnsWhileBraking(const OwnView& s) {
+  const double stops_s = s.reaction_s + s.speed_m_s / s.options.profile.deceleration_m_s2;
+  return s.turn_rad_s * (kClosingTime_s + stops_s / 2);
+}
+
+// The lesser of how far it may go straight on and along a face that slants.
+std::optional<double> FreeOfEcho(std::size_t sensor, const Situation& s) {
+  const std::optional<double> ahead_m = FreeAhead(sensor, s);
+  if (!Remembers(s.own.options)) return ahead_m;
+  const std::optional<double> along_m = FreeAlongFace(sensor, TurnsWhileBraking(s.own), s);
+  return !ahead_m || (along_m && *along_m < *ahead_m) ? along_m : ahead_m;
+}
+
 }  // namespace
 
 std::optional<Proposal> Leaving(const Situation& s) {
@@ -122,7 +137,7 @@ std::optional<Proposal> UnidentifiedMotion(const Situation& s) {
 std::optional<Proposal> Obstacle(const Situation& s) {
   std::optional<Proposal> nearest;
   for (const std::size_t i : BitsOf(s.own.ranges.Echoes())) {
-    const std::optional<double> free_m = FreeAhead(i, s);
+    const std::optional<double> free_m = FreeOfEcho(i, s);
     if (!free_m || MutantActive(Mutant::kObstacleIgnored)) continue;
     const double limit = SpeedToStopWithin(*free_m - kStandOff_m, s.own.reaction_s,
                                            s.own.options.profile.deceleration_m_s2);

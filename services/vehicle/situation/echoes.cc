@@ -115,6 +115,15 @@ double RangeAhead(const SensorView& view, const OwnView& s) {
   return std::max(0.0, view.range_m - std::max(0.0, s.speed_m_s) * std::max(0.0, since_s));
 }
 
+// By how much the range of what a sensor hears shrinks with each metre driven, as its echoes show
+// where the own motion was steady; 0 where they show nothing.
+double ShownSlant(const SensorView& view, const OwnView& s) {
+  constexpr double kDriven_m_s = 0.05;  // slower, echoes show no slant
+  const double driven_m_s = view.own.forward_m_s;
+  if (s.turns || driven_m_s < kDriven_m_s) return 0;
+  return view.closing_m_s / driven_m_s;
+}
+
 }  // namespace
 
 std::optional<double> FreeBeforeDisc(Vec2 centre_body, double sum_of_radii) {
@@ -174,6 +183,21 @@ std::optional<double> FreeAhead(std::size_t sensor, const Situation& s) {
   const Vec2 echo = profile.sonar[sensor].position_body +
                     RangeAhead(view, s.own) * s.own.cones.of[sensor].nearest_body;
   return FreeBeforeDisc(echo, profile.body_radius_m);
+}
+
+std::optional<double> FreeAlongFace(std::size_t sensor, double turns_rad, const Situation& s) {
+  const SensorView& view = s.own.ranges[sensor];
+  const RobotModel& profile = s.own.options.profile;
+  const Vec2 mount_body = profile.sonar[sensor].position_body;
+  const Vec2 axis_body = s.own.cones.of[sensor].axis_body;
+  const bool explained = (s.near.explained >> sensor & 1U) != 0;
+  if (view.kind != Echo::kEcho || explained || mount_body.x < 0) return std::nullopt;
+  const double slant = ShownSlant(view, s.own) + (axis_body.y > 0 ? turns_rad : -turns_rad);
+  if (slant <= 0) return std::nullopt;
+  const double since_s = EchoAge(view, s.own.tick, s.own.options.tick_period);
+  const double range_m = view.range_m - std::max(0.0, view.closing_m_s) * since_s;
+  const double apart_m = Dot(mount_body, axis_body) + range_m - profile.body_radius_m;
+  return std::max(0.0, apart_m) / std::min(1.0, slant);
 }
 
 bool MovesByItself(std::size_t sensor, const OwnView& s) {

@@ -29,6 +29,13 @@ inline constexpr double kStandOff_m = 0.15;
 // the cone. Empty if it cannot be in the path.
 std::optional<double> FreeAhead(std::size_t sensor, const Situation& s);
 
+// How far the vehicle may still go before its shell meets the face that sensor `sensor` hears, if
+// that comes nearer as it drives, or would once the vehicle has turned by turns_rad to the left. A
+// face that slants into the path sends back only from where its normal meets the transducer, which
+// is next to the path: where it crosses the path it is not heard. For imperfect ultrasonics; exact
+// ones hear the nearest point of a cone, whatever its normal. Empty if it comes no nearer.
+std::optional<double> FreeAlongFace(std::size_t sensor, double turns_rad, const Situation& s);
+
 // True if the sensor hears something that comes nearer than the own motion explains.
 bool MovesByItself(std::size_t sensor, const OwnView& s);
 

@@ -186,5 +186,30 @@ TEST_P(WallsEnd, IsRememberedByEarsThatMissMuchOfIt) {
   EXPECT_LE(contacts, GetParam().tier == SonarTier::kTypical ? 0U : 4U);
 }
 
+// A long wall that slants across the path: where it does, no sensor hears it. Regression: weak
+// brakes were applied when the shell was nearly there.
+test::Outcome MeetsWall(const Tier& tier, double slant_rad, double brakes_m_s2) {
+  Scenario scenario =
+      test::ScenarioOf({test::VehicleAt(1, Behaviour::kCooperative, 0.55, {-4, 0}, 0, 12)});
+  const Vec2 along{Cos(slant_rad), Sin(slant_rad)};
+  scenario.walls = {{Vec2{1, 0} - 6.0 * along, Vec2{1, 0} + 6.0 * along}};
+  scenario.sonar.tier = tier.tier;
+  scenario.seed = 1;
+  scenario.duration_s = 15;
+  scenario.vehicles[0].profile.deceleration_m_s2 = brakes_m_s2;
+  scenario.vehicles[0].sonar_refresh = tier.refresh;
+  scenario.vehicles[0].sonar_noise = 0.01;
+  return test::Finish(scenario);
+}
+
+TEST_P(WallsEnd, SlantingAcrossTheWayIsNotTouchedWithWeakBrakes) {
+  for (const int side : {1, -1}) {
+    for (int degrees = 12; degrees <= 60; degrees += 4) {
+      const test::Outcome outcome = MeetsWall(GetParam(), side * Radians(degrees), 0.25);
+      EXPECT_EQ(outcome.figures.contacts, 0U) << side * degrees << " degrees";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace giveway
