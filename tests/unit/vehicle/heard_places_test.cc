@@ -190,7 +190,7 @@ TEST_P(WallsEnd, IsRememberedByEarsThatMissMuchOfIt) {
 // brakes were applied when the shell was nearly there.
 test::Outcome MeetsWall(const Tier& tier, double slant_rad, double brakes_m_s2) {
   Scenario scenario =
-      test::ScenarioOf({test::VehicleAt(1, Behaviour::kCooperative, 0.55, {-4, 0}, 0, 12)});
+      test::ScenarioOf({test::VehicleAt(1, Behaviour::kCooperative, 0.45, {-4, 0}, 0, 12)});
   const Vec2 along{Cos(slant_rad), Sin(slant_rad)};
   scenario.walls = {{Vec2{1, 0} - 6.0 * along, Vec2{1, 0} + 6.0 * along}};
   scenario.sonar.tier = tier.tier;
@@ -204,8 +204,8 @@ test::Outcome MeetsWall(const Tier& tier, double slant_rad, double brakes_m_s2) 
 
 TEST_P(WallsEnd, SlantingAcrossTheWayIsNotTouchedWithWeakBrakes) {
   for (const int side : {1, -1}) {
-    for (int degrees = 12; degrees <= 60; degrees += 4) {
-      const test::Outcome outcome = MeetsWall(GetParam(), side * Radians(degrees), 0.25);
+    for (int degrees = 12; degrees <= 60; degrees += 2) {
+      const test::Outcome outcome = MeetsWall(GetParam(), side * Radians(degrees), 0.15);
       EXPECT_EQ(outcome.figures.contacts, 0U) << side * degrees << " degrees";
     }
   }
