@@ -118,6 +118,13 @@ void CheckPairs(const std::vector<Driver>& drivers, double delay_s) {
   }
 }
 
+// Whether anything in the place may show no more than an edge: discs are faces from every side.
+bool HasEdges(const Scenario& scenario) {
+  const auto is_box = [](const Obstacle& obstacle) { return obstacle.shape == BodyShape::kBox; };
+  return !scenario.walls.empty() || !scenario.doors.empty() ||
+         std::ranges::any_of(scenario.obstacles, is_box);
+}
+
 double NeededForStanding(const VehicleOptions& own) {
   return BrakingDistance(own) + Fastest(own) * ReactionSeconds(own);
 }
@@ -163,8 +170,8 @@ double SureReach(const VehicleOptions& own, SonarTier tier) {
   const double sine = Sin(midway_rad) / Sin(own.profile.sonar_half_angle_rad);
   const double from_mount_m = EdgeReachOff(EdgeReach(tier), std::min(1.0, sine * sine));
   const double mount_m = std::min(left.position_body.x, right.position_body.x);
-  return std::min(own.profile.sonar_max_range_m,
-                  from_mount_m + mount_m - own.profile.body_radius_m);
+  return std::clamp(from_mount_m + mount_m - own.profile.body_radius_m, 0.0,
+                    own.profile.sonar_max_range_m);
 }
 
 bool CanStopForStanding(const VehicleOptions& own, SonarTier tier) {
@@ -176,7 +183,8 @@ void CheckBraking(const ReadScenario& read) {
   CheckPairs(drivers, LongestDelay(read.scenario));
   const Scenario& scenario = read.scenario;
   if (scenario.walls.empty() && scenario.obstacles.empty() && scenario.doors.empty()) return;
-  for (const Driver& driver : drivers) CheckStanding(driver, scenario.sonar.tier);
+  const SonarTier tier = HasEdges(scenario) ? scenario.sonar.tier : SonarTier::kIdeal;
+  for (const Driver& driver : drivers) CheckStanding(driver, tier);
 }
 
 }  // namespace giveway

@@ -110,6 +110,16 @@ TEST(BrakingRules, AnEdgeMustBeWithinWhatTheTierSurelyHears) {
   EXPECT_THAT(before_wall(0.9, "p3dx"), testing::SizeIs(1));
 }
 
+TEST(BrakingRules, ADiscIsAFaceFromEverySideAndABoxHasEdges) {
+  const auto before = [](const std::string& shape) {
+    return ProblemsOf(HeadOn(1.25, 0.3,
+                             "emission_radius_m: 30 sonar { tier: typical } obstacle { " + shape +
+                                 " start { x_m: 20 y_m: 0 heading_deg: 0 } }"));
+  };
+  EXPECT_THAT(before("disc_radius_m: 0.3"), IsEmpty());
+  EXPECT_THAT(before("box { half_length_m: 0.3 half_width_m: 0.3 }"), testing::SizeIs(1));
+}
+
 TEST(BrakingRules, EveryGeneratedFleetComesOut) {
   for (const sim::Generator& generator : sim::Generators()) {
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
