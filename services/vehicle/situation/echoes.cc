@@ -211,11 +211,11 @@ bool MovesByItself(std::size_t sensor, const OwnView& s) {
   const double driving = std::max(s.speed_m_s, view.own.forward_m_s);
   const double turning = std::max(Magnitude(s.turn_rad_s), view.own.turn_rad_s);
   const double by_noise = kNoiseSigmas * s.options.sonar_noise * view.range_m / kClosingTime_s;
-  // The edge of a cone that looks ahead runs along a wall ahead faster than the vehicle drives; one
-  // that looks to the side meets what it passes.
+  // The edge of a cone runs along a wall ahead faster than the vehicle drives: one that looks to
+  // the side nearly four times as fast, where it passes the end of a building.
   const double cosine = s.cones.of[sensor].nearest_cosine;
-  const double faster = cosine > 0.5 ? 1 / cosine : cosine;
-  const double by_driving = std::max(0.0, driving * faster);
+  const double faster = cosine > 0 ? 1 / cosine : 0;
+  const double by_driving = std::max(0.0, driving) * faster;
   const double by_turning = turning * (profile.body_radius_m + 0.3 * view.range_m);
   return view.closing_m_s > by_driving + by_turning + by_noise + kOwnMotion_m_s;
 }

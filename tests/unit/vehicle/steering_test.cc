@@ -235,7 +235,7 @@ TEST(Steering, BesideAWallItDoesNotTurnToAndFroForEver) {
   options.goal.at_world = {-10, -0.26};
   test::BrainBench bench(options);
   Outputs out;
-  for (std::uint32_t tick = 0; tick < 320; ++tick) {
+  for (std::uint32_t tick = 0; tick < 420; ++tick) {
     RangeScan scan = test::ClearScan(0);
     if (tick >= 130) scan.wheels = out.command.target;  // until then it is held where it stands
     for (std::size_t i = 0; i < 8; ++i) {

@@ -177,6 +177,22 @@ TEST(Vehicle, ANewWorldEpochForgetsThatItTurned) {
 }
 
 // A NaN in the pose would never leave it again.
+// Regression: exact ultrasonics hear the front of a building ahead at the rim of the cone that
+// looks to the side, nearly four times as fast as the vehicle comes nearer; it halted at every
+// doorway.
+TEST(Vehicle, TheFrontOfABuildingMetAtTheRimOfASideConeIsNoMover) {
+  const RobotModel profile = test::DefaultOptions().profile;
+  const double rim_cosine = Cos(profile.sonar[0].bearing_rad - profile.sonar_half_angle_rad);
+  BrainBench bench(test::DefaultOptions());
+  for (int i = 0; i < 16; ++i) {
+    RangeScan scan = ClearScan(0);
+    scan.wheels = {0.3 / 0.0975, 0.3 / 0.0975};
+    const double ahead_m = 0.25 - 0.3 * 0.05 * i;  // of the transducer
+    test::SetEcho(&scan, 0, ahead_m / rim_cosine);
+    EXPECT_NE(bench.Step(scan).command.decision.rule, Rule::kUnidentifiedMotion) << i;
+  }
+}
+
 TEST(Vehicle, AScanThatCannotBeItsOwnIsRefusedAndCounted) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const auto refused = [](auto spoil) {
@@ -213,6 +229,23 @@ TEST(Vehicle, ANewWorldEpochStartsDeadReckoningAnew) {
   const Outputs out = bench.Step(scan);
   EXPECT_EQ(out.beacon.world_from_body.position_world, Vec2{});
   EXPECT_EQ(out.beacon.world_epoch, WorldEpoch{8});
+}
+
+// Regression: weak brakes let it roll through its goal, and it stood beyond for ever.
+TEST(Vehicle, RolledOutOfItsGoalItHasNotArrived) {
+  VehicleOptions options = test::DefaultOptions();
+  options.goal = {.set = true, .at_world = {0.3, 0}, .radius_m = 0.1};
+  BrainBench bench(options);
+  bool arrived = false;
+  Outputs out;
+  for (int i = 0; i < 30; ++i) {
+    RangeScan scan = ClearScan(0);
+    scan.wheels = {0.3 / 0.0975, 0.3 / 0.0975};
+    out = bench.Step(scan);
+    arrived = arrived || out.command.decision.rule == Rule::kArrived;
+  }
+  EXPECT_TRUE(arrived);
+  EXPECT_NE(out.command.decision.rule, Rule::kArrived);
 }
 
 TEST(Vehicle, AScanOlderThanTheLastMovesNothing) {
