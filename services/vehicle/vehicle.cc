@@ -343,6 +343,8 @@ void Vehicle::KeepBlocked(VehicleId blocked_by, const Situation& s) {
     state.last.blocked_tick = s.own.tick;
     return;
   }
+  // Nor with a hold that only the inherited priority makes.
+  if (IsHeldByOwnKey(state.last.blocked_by, s)) state.last.blocked_tick = s.own.tick;
   const bool recent = state.last.blocked_tick != kNoTick && !s.own.arrived &&
                       TicksBetween(state.last.blocked_tick, s.own.tick) <= kBlockedTicks;
   if (!recent || !IsStillNear(state.last.blocked_by, s)) state.last.blocked_by = kNoVehicle;

@@ -65,6 +65,13 @@ VehicleId BlockedBy(const Situation& s, const Decision& decision, VehicleId not_
   return waiting != kNoVehicle ? waiting : not_passed;
 }
 
+bool IsHeldByOwnKey(VehicleId peer, const Situation& s) {
+  return std::ranges::any_of(s.near.peers, [&](const PeerView& view) {
+    return view.peer->id == peer && view.fresh && view.peer->encounter.holds &&
+           view.peer->beacon.order.vehicle == s.own.options.id;
+  });
+}
+
 bool IsStillNear(VehicleId peer, const Situation& s) {
   return std::ranges::any_of(s.near.peers, [peer](const PeerView& view) {
     return view.peer->id == peer && view.fresh && view.gap_m < kQueueWithin_m;

@@ -17,6 +17,10 @@ PriorityKey ActingOrder(const PriorityKey& own, const PeerTable& peers, VehicleI
 // steer round. kNoVehicle if there is none.
 VehicleId BlockedBy(const Situation& s, const Decision& decision, VehicleId not_passed);
 
+// True if this vehicle holds for that peer while it acts by this one's key: were the key taken
+// back, this vehicle would drive on until the peer blocks it, and lend it again.
+bool IsHeldByOwnKey(VehicleId peer, const Situation& s);
+
 // True if that peer is fresh and near enough to block this vehicle again at once.
 bool IsStillNear(VehicleId peer, const Situation& s);
 

@@ -51,5 +51,28 @@ TEST(ActingOrder, IsTheOwnAgainOnceTheOneThatLentItIsGone) {
   EXPECT_EQ(After({HeldUp(1), far}), kOwnKey);
 }
 
+// Regression: one that waited before a crossing by the key of the one behind it lost that key every
+// second, for it was given way to and blocked nobody then; both waited for each other meanwhile.
+TEST(BlockedBy, LastsAsLongAsTheKeyLentIsWhatItIsHeldBy) {
+  test::BrainBench bench(test::OptionsWithoutUltrasonics());
+  // Stands ahead in the lane, and later, by the own key, across it.
+  const auto beacon_at = [](std::uint32_t tick, double heading_rad) {
+    Beacon beacon =
+        test::BeaconOf(2, tick, {.position_world = {1.2, 0}, .heading_rad = heading_rad}, 0.2);
+    beacon.rule = Rule::kGiveWay;
+    if (heading_rad != 0) beacon.order = {.speed_bucket = 6, .vehicle = kOwn};
+    return beacon;
+  };
+  Outputs out;
+  for (int i = 0; i < 100; ++i) {
+    const std::uint32_t heard = bench.NextTick() - 1;
+    std::vector<Beacon> beacons;
+    if (heard > 0) beacons = {beacon_at(heard, heard < 20 ? 0 : 0.6)};
+    out = bench.Step(test::ClearScan(0), beacons);
+    if (heard > 1) ASSERT_EQ(out.beacon.blocked_by, VehicleId{2}) << heard;
+  }
+  EXPECT_EQ(out.command.decision.rule, Rule::kGiveWay);
+}
+
 }  // namespace
 }  // namespace giveway
