@@ -145,6 +145,37 @@ void CheckStanding(const Driver& driver, SonarTier tier) {
       "lower cruise_m_s, or raise profile.deceleration_m_s2");
 }
 
+// Outside on one side it hears who is in, on the other side, while it can still stop.
+double NeededForOneLane(const OneLane& lane, const VehicleOptions& own, double widest_m) {
+  const double outside_m =
+      lane.width_m + own.profile.body_radius_m + widest_m + 2 * kOneLaneMargin_m;
+  const double stops_m =
+      BrakingDistance(own) + Fastest(own) * (ReactionSeconds(own) + kOneLaneHeard_s);
+  return Norm(lane.to_world - lane.from_world) + outside_m + stops_m;
+}
+
+void CheckOneLane(const Section& section, const OneLane& lane, const std::vector<Driver>& drivers) {
+  double widest_m = 0;
+  for (const Driver& driver : drivers) {
+    widest_m = std::max(widest_m, driver.options->profile.body_radius_m);
+  }
+  for (const Driver& driver : drivers) {
+    const VehicleOptions& own = *driver.options;
+    const double needed_m = NeededForOneLane(lane, own, widest_m);
+    if (!(needed_m > own.emission_radius_m)) continue;
+    section.AddError(
+        "to",
+        fmt::format(
+            "{} could not stop outside it for one that is in: it is {:.2f} m long, braking, "
+            "two bodies and half of its width at either end make {:.2f} m, but they hear "
+            "each other within {:.2f} m (emission_radius_m)",
+            driver.name, Norm(lane.to_world - lane.from_world), needed_m, own.emission_radius_m),
+        fmt::format("shorten it, or raise emission_radius_m to at least {:.2f}",
+                    std::ceil(100 * needed_m) / 100));
+    return;
+  }
+}
+
 }  // namespace
 
 BrakingSum SumOf(const VehicleOptions& own, const VehicleOptions& peer, double delay_s) {
@@ -182,6 +213,9 @@ void CheckBraking(const ReadScenario& read) {
   const std::vector<Driver> drivers = DriversOf(read);
   CheckPairs(drivers, LongestDelay(read.scenario));
   const Scenario& scenario = read.scenario;
+  for (std::size_t i = 0; i < read.one_lanes.size(); ++i) {
+    CheckOneLane(read.one_lanes[i], scenario.one_lanes[i], drivers);
+  }
   if (scenario.walls.empty() && scenario.obstacles.empty() && scenario.doors.empty()) return;
   const SonarTier tier = HasEdges(scenario) ? scenario.sonar.tier : SonarTier::kIdeal;
   for (const Driver& driver : drivers) CheckStanding(driver, tier);

@@ -171,6 +171,11 @@ Obstacle ReadObstacle(const Section& section) {
   return obstacle;
 }
 
+OneLane ReadOneLane(const Section& section) {
+  const Ends ends = ReadEnds(section, "one-lane place");
+  return {ends.from_world, ends.to_world, section.Number("width_m", {0.1, 100, "m"})};
+}
+
 Door ReadDoor(const Section& section) {
   constexpr Allowed kPhase{0, 86400, "s"};
   const Ends ends = ReadEnds(section, "door");

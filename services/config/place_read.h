@@ -1,5 +1,5 @@
-// What a scenario file says of its place: walls, obstacles, doors, signal heads, and how its
-// ultrasonics hear. Where bodies stand is judged elsewhere (start_rules.cc).
+// What a scenario file says of its place: walls, obstacles, one-lane places, doors, signal heads,
+// and how its ultrasonics hear. Where bodies stand is judged elsewhere (start_rules.cc).
 #pragma once
 
 #include <optional>
@@ -16,6 +16,7 @@ Nanoseconds SonarRefresh(const SonarModel& sonar, Nanoseconds tick_period);
 
 Wall ReadWall(const Section& section);
 Obstacle ReadObstacle(const Section& section);
+OneLane ReadOneLane(const Section& section);
 Door ReadDoor(const Section& section);
 SignalPlan ReadSignal(const Section& section);
 

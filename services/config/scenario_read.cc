@@ -152,9 +152,18 @@ void ReadStartWith(const Section& root, Scenario* scenario) {
                                      "start_with", {1, all, "vehicles"});
 }
 
+// The map that all vehicles share.
+void ReadMap(const Section& root, ReadScenario* read) {
+  read->one_lanes = Elements(root, "one_lane", static_cast<int>(kMaxOneLanes));
+  for (const Section& lane : read->one_lanes) {
+    read->scenario.one_lanes.push_back(ReadOneLane(lane));
+  }
+}
+
 void ReadFleet(const Section& root, const ScenarioOverrides& overrides, ReadScenario* read) {
   Scenario& scenario = read->scenario;
   VehicleOptions common = ReadCommon(root);
+  common.one_lanes = scenario.one_lanes;
   scenario.tick_period = common.tick_period;
   scenario.sonar = ReadSonar(root.Child("sonar"), common.tick_period);
   common.sonar_refresh = SonarRefresh(scenario.sonar, common.tick_period);
@@ -254,6 +263,7 @@ void ReadPlans(const Section& root, Scenario* scenario) {
 ReadScenario ReadFrom(const Section& root, const ScenarioOverrides& overrides) {
   ReadScenario read;
   ReadSettings(root, overrides, &read.scenario);
+  ReadMap(root, &read);
   ReadFleet(root, overrides, &read);
   ReadPlace(root, &read);
   ReadPlans(root, &read.scenario);

@@ -17,6 +17,7 @@ struct ReadScenario {
   std::vector<Section> spawns;
   std::vector<Section> obstacles;
   std::vector<Section> doors;
+  std::vector<Section> one_lanes;
 };
 
 // `root` is of the message giveway.schema.Scenario. Problems go to `root`.

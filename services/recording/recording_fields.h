@@ -83,13 +83,18 @@ void Visit(auto& fields, Is<RobotModel> auto& profile) {
          pose_limit);
 }
 
+void Visit(auto& fields, Is<OneLane> auto& lane) {
+  auto& [from, to, width] = lane;
+  fields(from, to, width);
+}
+
 void Visit(auto& fields, Is<VehicleOptions> auto& options) {
   auto& [id, behaviour, profile, cruise, goal, route, start, braitenberg, tick_period, gate_enter,
          gate_exit, metric, emission_radius, beacon_age_limit, ranges_age_limit, sonar_refresh,
-         sonar_noise, ageing_limit] = options;
+         sonar_noise, ageing_limit, one_lanes] = options;
   fields(id, behaviour, profile, cruise, goal, route, start, braitenberg, tick_period, gate_enter,
          gate_exit, metric, emission_radius, beacon_age_limit, ranges_age_limit, sonar_refresh,
-         sonar_noise, ageing_limit);
+         sonar_noise, ageing_limit, one_lanes);
 }
 
 void Visit(auto& fields, Is<PriorityKey> auto& key) {

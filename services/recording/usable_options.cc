@@ -35,6 +35,10 @@ class Sober {
   bool holds_ = true;
 };
 
+bool HasNoLength(const OneLane& lane) {
+  return !(Norm(lane.to_world - lane.from_world) >= kLeastLength_m);
+}
+
 }  // namespace
 
 std::string WhyUnusable(const VehicleOptions& options) {
@@ -49,6 +53,10 @@ std::string WhyUnusable(const VehicleOptions& options) {
   if (options.id == kNoVehicle) return "options name no vehicle";
   if (options.tick_period < std::chrono::milliseconds(1)) return "options have no tick";
   if (options.route.count > kMaxWaypoints) return "options have too long a route";
+  if (options.one_lanes.size() > kMaxOneLanes) return "options have too many one-lane places";
+  if (std::ranges::any_of(options.one_lanes, HasNoLength)) {
+    return "options have a one-lane place without a length";
+  }
   if (std::ranges::any_of(lengths, [](double x) { return x < kLeastLength_m; }) ||
       !(options.cruise_m_s > 0) || options.cruise_m_s > kMaxSpeed_m_s) {
     return "options describe no vehicle that could drive";

@@ -155,6 +155,10 @@ void DrawMovingMark(Canvas* canvas, Pixel cell) {
 
 void DrawDoorMark(Canvas* canvas, Pixel cell) { DrawDoor(canvas, cell, {cell.x + 26, cell.y}); }
 
+void DrawOneLaneMark(Canvas* canvas, Pixel cell) {
+  DrawOneLane(canvas, {cell.x + 6, cell.y}, {cell.x + 20, cell.y}, 12);
+}
+
 // Lying on its side, to fit a row.
 void DrawSignalMark(Canvas* canvas, Pixel cell) {
   canvas->Line({cell.x, cell.y - 6}, {cell.x, cell.y + 6}, "stroke=\"#2b2f33\" stroke-width=\"3\"");
@@ -176,6 +180,7 @@ std::vector<Mark> MarksOf(const Scenario& scenario) {
   if (!scenario.spawns.empty()) marks.push_back({"spawn place", DrawSpawnMark});
   if (moving < all) marks.push_back({"obstacle", DrawStandingMark});
   if (moving > 0) marks.push_back({"moving obstacle at its start, its route", DrawMovingMark});
+  if (!scenario.one_lanes.empty()) marks.push_back({"one-lane place", DrawOneLaneMark});
   if (!scenario.doors.empty()) marks.push_back({"door", DrawDoorMark});
   if (!scenario.signals.empty()) marks.push_back({"stop line and signal head", DrawSignalMark});
   return marks;
@@ -213,6 +218,7 @@ void IncludePlace(WorldBox* box, const Scenario& scenario) {
     box->Include(to_world, 0);
   };
   for (const Wall& wall : scenario.walls) line(wall.from_world, wall.to_world);
+  for (const OneLane& lane : scenario.one_lanes) line(lane.from_world, lane.to_world);
   for (const Door& door : scenario.doors) line(door.from_world, door.to_world);
   for (const SignalPlan& s : scenario.signals) line(s.line_from_world, s.line_to_world);
   for (const Obstacle& obstacle : scenario.obstacles) {

@@ -432,7 +432,18 @@ void DrawDoor(Canvas* canvas, Pixel from, Pixel to) {
   }
 }
 
+void DrawOneLane(Canvas* canvas, Pixel from, Pixel to, double width) {
+  canvas->Line(from, to,
+               fmt::format("stroke=\"#f5c518\" stroke-opacity=\"0.3\" stroke-width=\"{:.1f}\" "
+                           "stroke-linecap=\"round\"",
+                           width));
+}
+
 void DrawPlace(Canvas* canvas, const Scenario& scenario) {
+  for (const OneLane& lane : scenario.one_lanes) {
+    DrawOneLane(canvas, canvas->At(lane.from_world), canvas->At(lane.to_world),
+                canvas->Pixels(lane.width_m));
+  }
   for (const Wall& wall : scenario.walls) {
     canvas->Line(canvas->At(wall.from_world), canvas->At(wall.to_world),
                  "stroke=\"#3c4043\" stroke-width=\"5\" stroke-linecap=\"round\"");

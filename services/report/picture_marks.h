@@ -45,6 +45,7 @@ void DrawScaleBar(Canvas* canvas);
 void DrawPlace(Canvas* canvas, const Scenario& scenario);
 
 void DrawDoor(Canvas* canvas, Pixel from, Pixel to);
+void DrawOneLane(Canvas* canvas, Pixel from, Pixel to, double width);
 
 // Start: the body, hollow, with its heading. Goal: its circle with a dot.
 void DrawStartsAndGoals(Canvas* canvas, const Scenario& scenario);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "services/types/impairment.h"
+#include "services/types/one_lane.h"
 #include "services/types/signal.h"
 #include "services/types/time.h"
 #include "services/types/vehicle_options.h"
@@ -146,6 +147,7 @@ struct Scenario {
   std::vector<Obstacle> obstacles;
   std::vector<Door> doors;
   std::vector<SignalPlan> signals;  // sorted by id
+  std::vector<OneLane> one_lanes;   // those of the vehicles' options
   std::vector<PlannedFault> faults;
   Impairment impairment;  // of what the vehicles hear; the virtual fleet has a radio of its own
   Expectation expect;

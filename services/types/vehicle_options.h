@@ -4,10 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "services/types/decision.h"
 #include "services/types/ids.h"
 #include "services/types/math/distance.h"
+#include "services/types/one_lane.h"
 #include "services/types/robot_model.h"
 #include "services/types/task_progress.h"
 #include "services/types/time.h"
@@ -81,6 +83,7 @@ struct VehicleOptions {
   // Standard deviation of a reading, share of its range; 0: readings are exact and miss nothing.
   double sonar_noise = 0;
   Nanoseconds ageing_limit{20'000'000'000};  // waiting longer moves a vehicle up the order
+  std::vector<OneLane> one_lanes;  // of the map that all vehicles share; at most kMaxOneLanes
 };
 
 // False of a loop too, which never comes to the goal it may have.

@@ -7,6 +7,7 @@
 #include "services/vehicle/estimation/injected_mutants.h"
 #include "services/vehicle/situation/blocked.h"
 #include "services/vehicle/situation/heard_places.h"
+#include "services/vehicle/situation/one_lane.h"
 
 namespace giveway {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 // After kNoProgress_s of driving without progress, a vehicle plans a detour; after
 // kProgressTimeout_s it does not stay in line any more.
 constexpr double kPassedAtDistance_m = 1.2;
+constexpr double kLeastPassingRadius_m = 0.1;
 constexpr double kNoProgress_s = 6;
 constexpr double kProgressTimeout_s = 15;
 constexpr double kProgress_m = 0.1;
@@ -29,11 +31,25 @@ constexpr std::uint32_t kStuckAgainTicks =
 constexpr double kStuckWithin_m = 0.1;
 constexpr std::uint32_t kStuckAfterTicks = 200;
 
-// A waypoint that is occupied is passed at a distance, once it cannot be reached.
-bool PassesWaypoint(std::uint32_t waypoint, const Route& route, bool detours, Vec2 position_world) {
-  if (waypoint >= route.count) return false;
-  const double away_m = Norm(route.waypoints_world[waypoint] - position_world);
-  return away_m <= route.radius_m || (detours && away_m <= kPassedAtDistance_m);
+// How near it must come to a waypoint in a one-lane place, to turn into the place with all of its
+// body inside.
+double PassingRadius(const OneLane& lane, const VehicleOptions& options) {
+  const double beside_m = lane.width_m / 2 - options.profile.body_radius_m;
+  return std::min(options.route.radius_m, std::max(beside_m, kLeastPassingRadius_m));
+}
+
+// A waypoint that is occupied is passed at a distance, once it cannot be reached. Not one in a
+// one-lane place, nor from within one: there is no way round.
+bool PassesWaypoint(std::uint32_t waypoint, const VehicleOptions& options, bool detours,
+                    Vec2 position_world) {
+  if (waypoint >= options.route.count) return false;
+  const Vec2 at_world = options.route.waypoints_world[waypoint];
+  const double away_m = Norm(at_world - position_world);
+  const OneLane* lane = FindOneLane(at_world, options.one_lanes);
+  if (lane != nullptr) return away_m <= PassingRadius(*lane, options);
+  if (away_m <= options.route.radius_m) return true;
+  return detours && away_m <= kPassedAtDistance_m &&
+         FindOneLane(position_world, options.one_lanes) == nullptr;
 }
 
 void Restart(GoalProgress* progress) {
@@ -41,11 +57,12 @@ void Restart(GoalProgress* progress) {
   progress->no_progress_ticks = 0;
 }
 
-void PassWaypoints(const Route& of, Vec2 position_world, RouteProgress* route,
+void PassWaypoints(const VehicleOptions& options, Vec2 position_world, RouteProgress* route,
                    GoalProgress* progress) {
+  const Route& of = options.route;
   const bool detours = progress->detour_tick != kNoTick;
   for (std::uint32_t i = 0; i < of.count; ++i) {
-    if (!PassesWaypoint(route->waypoint, of, detours, position_world)) return;
+    if (!PassesWaypoint(route->waypoint, options, detours, position_world)) return;
     ++route->waypoint;
     if (of.loop && route->waypoint == of.count) route->waypoint = 0;
     Restart(progress);
@@ -58,10 +75,9 @@ void NoteArrival(const OwnCourse& course, const OwnPose& pose, const VehicleOpti
   if (course.stops_there && course.distance_to_goal_m <= options.goal.radius_m / 2) {
     route->arrived = true;
   }
-  // A fix may say that it was not there.
-  const bool shown = options.profile.pose_fix.Fitted();
+  // It may have rolled on out of it, and a fix may say that it was not there.
   const double surely_m = course.distance_to_goal_m - SigmaPosition(pose.covariance);
-  if (!route->arrived || !shown || surely_m <= options.goal.radius_m) return;
+  if (!route->arrived || surely_m <= options.goal.radius_m) return;
   route->arrived = false;
   Restart(progress);
 }
@@ -71,7 +87,7 @@ void NoteArrival(const OwnCourse& course, const OwnPose& pose, const VehicleOpti
 OwnCourse UpdatePath(const OwnPose& pose, const VehicleOptions& options, RouteProgress* route,
                      GoalProgress* progress) {
   const Vec2 position = pose.world_from_body.position_world;
-  PassWaypoints(options.route, position, route, progress);
+  PassWaypoints(options, position, route, progress);
   OwnCourse course{.path = {position, pose.forward_world}, .distance_to_goal_m = kNoGoal_m};
   const bool on_route = route->waypoint < options.route.count;
   if (on_route || options.goal.set) {
@@ -87,6 +103,7 @@ OwnCourse UpdatePath(const OwnPose& pose, const VehicleOptions& options, RoutePr
   }
   course.path_rad = route->bearing.Of(course.path.direction_world);
   course.arrived = route->arrived;
+  course.lanes = FindLanesAhead(pose, course, options);
   return course;
 }
 

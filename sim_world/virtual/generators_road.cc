@@ -56,6 +56,13 @@ void AddBuildings(const Passage& passage, double width_m, Layout* layout) {
   layout->AddBlock({-passage.half_m, -width_m / 2 - kDepth_m}, {passage.half_m, -width_m / 2});
 }
 
+// The passage as the vehicles' map has it, up to where one who leaves turns off.
+void AddOneLane(const Passage& passage, double width_m, Layout* layout) {
+  constexpr double kMouth_m = 1.6;
+  const double end_m = passage.half_m + kMouth_m;
+  layout->AddOneLane({{-end_m, 0}, {end_m, 0}, width_m});
+}
+
 }  // namespace
 
 // Four roads, each with a lane in and a lane out, meet in a ring of 3 to 4 m radius driven
@@ -118,6 +125,7 @@ Scenario MakeDoor(const Size& size) {
   const double lane_m = width_m < kTwoBodies_m ? 0 : 0.25 + (width_m - 1) / 6;
   AddBuildings({.half_m = kHalf_m, .lane_m = lane_m}, width_m, &layout);
   SendThrough({.half_m = kHalf_m, .lane_m = lane_m}, size.vehicles, &layout);
+  if (lane_m == 0) AddOneLane({.half_m = kHalf_m}, width_m, &layout);
   return layout.Take(kMouths_m);
 }
 
@@ -128,6 +136,7 @@ Scenario MakeOneLane(const Size& size) {
   const double width_m = layout.Dice().Uniform(0.9, 1.1);
   AddBuildings({.half_m = half_m}, width_m, &layout);
   SendThrough({.half_m = half_m}, size.vehicles, &layout);
+  AddOneLane({.half_m = half_m}, width_m, &layout);
   return layout.Take(2 * half_m + kMouths_m);
 }
 

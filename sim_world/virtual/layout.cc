@@ -16,6 +16,16 @@ constexpr double kFastest_m_s = 0.6;
 constexpr double kSpare_s = 60;
 constexpr double kTurn_s = 12;  // where two paths cross; a longer place takes longer
 
+// How far vehicles must hear each other, on either side of the longest place.
+double RadioForOneLanes(std::span<const OneLane> lanes) {
+  constexpr double kBefore_m = 4;  // both wait outside, and must stop there
+  double longest_m = 0;
+  for (const OneLane& lane : lanes) {
+    longest_m = std::max(longest_m, Norm(lane.to_world - lane.from_world) + lane.width_m);
+  }
+  return lanes.empty() ? 0 : longest_m + kBefore_m;
+}
+
 }  // namespace
 
 Layout::Layout(std::string_view name, const Size& size)
@@ -67,7 +77,10 @@ void Layout::AddBlock(Vec2 low, Vec2 high) {
 Scenario Layout::Take(double tightest_m) {
   double slowest_s = 0;
   double turns_s = 0;
-  for (const VehicleOptions& options : scenario_.vehicles) {
+  const double radio_m = RadioForOneLanes(scenario_.one_lanes);
+  for (VehicleOptions& options : scenario_.vehicles) {
+    options.one_lanes = scenario_.one_lanes;
+    options.emission_radius_m = std::max(options.emission_radius_m, radio_m);
     slowest_s = std::max(slowest_s, FreeFlowSeconds(options));
     turns_s += std::max(kTurn_s, tightest_m / options.cruise_m_s);
     scenario_.expect.arrived.push_back(options.id);

@@ -43,6 +43,7 @@ class Layout {
   void AddCellToCell(std::uint32_t vehicles, std::uint32_t columns);
   void AddObstacle(const Obstacle& obstacle) { scenario_.obstacles.push_back(obstacle); }
   void AddWall(Vec2 from, Vec2 to) { scenario_.walls.push_back({from, to}); }
+  void AddOneLane(const OneLane& lane) { scenario_.one_lanes.push_back(lane); }
   // Four walls round a rectangle along the axes.
   void AddBlock(Vec2 low, Vec2 high);
 

@@ -94,6 +94,19 @@ void ObserveFleet(const VirtualFleet& fleet, std::vector<Observed>* observed) {
   }
 }
 
+namespace {
+
+// How long it takes through the longest of its one-lane places.
+double LongestPassageSeconds(const VehicleOptions& options) {
+  double longest_m = 0;
+  for (const OneLane& lane : options.one_lanes) {
+    longest_m = std::max(longest_m, Norm(lane.to_world - lane.from_world));
+  }
+  return longest_m / options.cruise_m_s;
+}
+
+}  // namespace
+
 InvariantLimits LimitsFor(const Scenario& scenario, std::uint32_t late_ticks, bool loses) {
   InvariantLimits limits;
   // The next beacon makes up for a lost one; a peer that is silent for the age limit counts as lost
@@ -107,6 +120,10 @@ InvariantLimits LimitsFor(const Scenario& scenario, std::uint32_t late_ticks, bo
   constexpr double kWaitEach_s = 10;
   const std::size_t most = scenario.vehicles.size() + scenario.spawns.size();
   limits.wait_s = kWaitAlone_s + kWaitEach_s * static_cast<double>(most);
+  // Where vehicles pass one by one, each turn lasts as long as the passage.
+  for (const VehicleOptions& options : scenario.vehicles) {
+    limits.wait_s += std::max(0.0, LongestPassageSeconds(options) - kWaitEach_s);
+  }
   return limits;
 }
 

@@ -132,8 +132,15 @@ void CheckSignals(const std::vector<SignalPlan>& signals) {
   }
 }
 
+void CheckOneLane(const OneLane& lane) {
+  CheckLine(lane.from_world, lane.to_world);
+  GIVEWAY_CHECK(Within(lane.width_m, 0.1, 100), lane.width_m);
+}
+
 void CheckPlace(const Scenario& scenario) {
   CheckSonar(scenario);
+  GIVEWAY_CHECK(scenario.one_lanes.size() <= kMaxOneLanes, scenario.one_lanes.size());
+  for (const OneLane& lane : scenario.one_lanes) CheckOneLane(lane);
   for (const Wall& wall : scenario.walls) CheckLine(wall.from_world, wall.to_world);
   for (const Obstacle& obstacle : scenario.obstacles) CheckObstacle(obstacle);
   for (const Door& door : scenario.doors) CheckDoor(door);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "services/vehicle/situation/echoes.h"
+#include "services/vehicle/situation/one_lane.h"
 #include "services/vehicle/situation/peer_relation.h"
 #include "tests/support/brain_bench.h"
 
@@ -22,6 +23,11 @@ class Onlooker {
   Onlooker(const Onlooker&) = delete;  // its view refers to the others
 
   const OwnView& Own() const { return own_; }
+
+  void Knows(const OneLane& lane) {
+    options_.one_lanes.push_back(lane);
+    own_.lanes = FindLanesAhead(own_, own_, options_);
+  }
 
   // One echo, and nothing else.
   void Hear(std::size_t sensor, double range_m) {

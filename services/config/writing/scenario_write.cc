@@ -89,6 +89,12 @@ void SetPlace(const Scenario& scenario, schema::Scenario* message) {
     Set(wall.from_world, written->mutable_from());
     Set(wall.to_world, written->mutable_to());
   }
+  for (const OneLane& lane : scenario.one_lanes) {
+    schema::OneLane* written = message->add_one_lane();
+    Set(lane.from_world, written->mutable_from());
+    Set(lane.to_world, written->mutable_to());
+    written->set_width_m(lane.width_m);
+  }
 }
 
 // Numbers that are as without the rule are left out.
@@ -182,6 +188,10 @@ Scenario RoundedAsWritten(Scenario scenario) {
     options.goal.at_world = Thousandths(options.goal.at_world);
     for (Vec2& waypoint : options.route.waypoints_world) waypoint = Thousandths(waypoint);
   }
+  for (OneLane& lane : scenario.one_lanes) {
+    lane = {Thousandths(lane.from_world), Thousandths(lane.to_world), Thousandths(lane.width_m)};
+  }
+  for (VehicleOptions& options : scenario.vehicles) options.one_lanes = scenario.one_lanes;
   for (Wall& wall : scenario.walls) {
     wall = {Thousandths(wall.from_world), Thousandths(wall.to_world)};
   }

@@ -71,6 +71,10 @@ void AddScenario(const Scenario& scenario, Json* scene) {
   (*scene)["walls"] = JsonArray(scenario.walls, [](const Wall& wall) {
     return std::array{wall.from_world.x, wall.from_world.y, wall.to_world.x, wall.to_world.y};
   });
+  (*scene)["one_lanes"] = JsonArray(scenario.one_lanes, [](const OneLane& lane) {
+    return std::array{lane.from_world.x, lane.from_world.y, lane.to_world.x, lane.to_world.y,
+                      lane.width_m};
+  });
   (*scene)["obstacles"] = JsonArray(scenario.obstacles, ObstacleJson);
   (*scene)["doors"] = JsonArray(scenario.doors, DoorJson);
   (*scene)["fleet"] = JsonArray(scenario.vehicles, VehicleJson);

@@ -52,7 +52,7 @@ function readColours() {
   const style = getComputedStyle(document.documentElement);
   for (const name of ["ground", "panel", "ink", "soft", "line", "grid", "wall", "obstacle", "accent",
     "cooperative", "sensor_only", "halt", "leaving", "silent", "ok", "warn", "bad", "cone", "echo",
-    "ellipse", "giveway"]) {
+    "ellipse", "giveway", "one_lane"]) {
     colours[name] = style.getPropertyValue("--" + name).trim();
   }
 }

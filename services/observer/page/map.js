@@ -49,6 +49,11 @@ function doorShare(door, time_s) {
 function drawScene(g, frame) {
   const scene = state.scene;
   g.lineCap = "round";
+  g.strokeStyle = colours.one_lane;
+  for (const [fromX, fromY, toX, toY, width_m] of scene.one_lanes ?? []) {
+    g.lineWidth = width_m * view.scale;
+    line(g, [toScreen(fromX, fromY), toScreen(toX, toY)]);
+  }
   g.strokeStyle = colours.wall;
   g.lineWidth = 2.5;
   for (const wall of scene.walls ?? []) line(g, [toScreen(wall[0], wall[1]), toScreen(wall[2], wall[3])]);

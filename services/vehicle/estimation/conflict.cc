@@ -81,6 +81,13 @@ Stretch StretchNear(const Path& path, const Path& other, double reach_m) {
   return StretchNear(PairOf(path, other), reach_m);
 }
 
+Stretch StretchNearSegment(const Path& path, const Path& other, double length_m, double reach_m) {
+  const Path tail = {other.from_world + length_m * other.direction_world,
+                     -1.0 * other.direction_world};
+  // A segment is what two half-lines against each other share.
+  return Intersection(StretchNear(path, other, reach_m), StretchNear(path, tail, reach_m));
+}
+
 std::optional<Conflict> FindConflict(const Path& own, const Path& peer, double reach_m) {
   const PairOfLines pair = PairOf(own, peer);
   const Stretch of_own = StretchNear(pair, reach_m);

@@ -26,11 +26,15 @@ struct Path {
 // The set of points near a half-line is convex, so it is one stretch or none.
 Stretch StretchNear(const Path& path, const Path& other, double reach_m);
 
+// The same of the first length_m of `other`.
+Stretch StretchNearSegment(const Path& path, const Path& other, double length_m, double reach_m);
+
 // Both paths' stretches in conflict: where one body on its path can touch the other on its own.
 struct Conflict {
   Stretch own;
   Stretch peer;
-  bool across = false;  // at more than 30 degrees, not along each other or against
+  bool across = false;    // at more than 30 degrees, not along each other or against
+  bool one_lane = false;  // from end to end of a place that has room for one: one_lane.h
 };
 
 // Empty if the paths never come within `reach_m`, or either vehicle has its stretch behind it.

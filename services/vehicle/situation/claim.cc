@@ -137,14 +137,8 @@ double FreeBefore(const Claim& claim, const Path& path, double radius_m) {
     const bool leads_out = LeadsAway(away, path, kAlong) && LeadsAway(from_body, path, kToBody);
     return leads_out ? kFar_m : 0;
   }
-  const Path tail = {claim.axis.from_world + claim.length_m * claim.axis.direction_world,
-                     -1.0 * claim.axis.direction_world};
-  // A segment is what two half-lines against each other share.
-  const Stretch one = StretchNear(path, claim.axis, reach_m);
-  const Stretch other = StretchNear(path, tail, reach_m);
-  const double begin = std::max(one.begin_m, other.begin_m);
-  const double end = std::min(one.end_m, other.end_m);
-  return begin > end || end <= 0 ? kFar_m : std::max(0.0, begin);
+  const Stretch near = StretchNearSegment(path, claim.axis, claim.length_m, reach_m);
+  return IsEmpty(near) || near.end_m <= 0 ? kFar_m : std::max(0.0, near.begin_m);
 }
 
 }  // namespace giveway

@@ -6,6 +6,7 @@
 #include "services/vehicle/estimation/injected_mutants.h"
 #include "services/vehicle/situation/claim.h"
 #include "services/vehicle/situation/echoes.h"
+#include "services/vehicle/situation/one_lane.h"
 
 namespace giveway {
 namespace {
@@ -77,6 +78,14 @@ bool WaitsAtSignal(const RelatedPeer& view, const OwnView& s) {
   if (!view.at_signal || s.at_signal) return false;
   return view.standing || !view.conflict ||
          view.conflict->peer.begin_m >= StoppingDistanceOf(view, s);
+}
+
+// It stands, comes later in the order and says so: it gives way to any that comes first. Before a
+// one-lane place it need not say so, for it stops there again.
+bool Halts(const RelatedPeer& view) {
+  if (!view.standing || view.has_priority) return false;
+  const bool one_lane = view.crossing && view.crossing->one_lane;
+  return one_lane || IsGiveWay(view.peer->beacon.rule);
 }
 
 // True if no point of the peer's path comes within reach_m of the own path.
@@ -198,6 +207,7 @@ bool IsRelevant(const Peer& peer, bool fresh, const OwnView& s) {
   const Vec2 from_world = beacon.world_from_body.position_world;
   const double near_m = s.interest_radius_m + beacon.body_radius_m + moved_m;
   if (SquaredNorm(from_world - s.world_from_body.position_world) <= near_m * near_m) return true;
+  if (MayMeetInOneLane(beacon, moved_m, s)) return true;
   const double sigma_m = SigmaAtMost(beacon, moved_m, s);
   const double reach_m = Reach(beacon, sigma_m, s) + moved_m + kWellAway_m;
   if (!StaysAway(from_world, beacon.toward_world, reach_m, s.path)) return true;
@@ -247,17 +257,18 @@ void Relate(RelatedPeer* related, const OwnView& s) {
   // One that has arrived does not move, whatever its heading: no vehicle queues behind it. Nor
   // behind one that has left, which has no path to cross either.
   const bool goes_on = !StaysPut(beacon) && !IsGone(*view.peer);
-  const bool follows = goes_on && Follows(view, view.standing, s);
+  if (goes_on) view.crossing = FindOneLaneConflict(view, s);
+  const bool one_lane = view.crossing.has_value();
+  const bool follows = goes_on && !one_lane && Follows(view, view.standing, s);
   view.leads = follows && Dot(view.offset_world, s.path.direction_world) > 0;
-  if (goes_on && !follows) FindCrossing(&view, s);
-  // One that stands and comes later in the order is a body to steer round.
+  if (goes_on && !one_lane && !follows) FindCrossing(&view, s);
+  // One that stands and comes later in the order is a body to steer round, where there is room.
   const bool stands = view.standing && (view.believed || !view.fresh);
-  const bool steered_round = cooperative && stands && !view.has_priority;
+  const bool steered_round = cooperative && stands && !view.has_priority && !one_lane;
   if (!steered_round) view.conflict = view.crossing;
   view.free_m = FreeAlong(view, s.forward_world, s);
-  const bool halted = view.standing && IsGiveWay(beacon.rule) && !view.has_priority;
   view.grants = view.believed && (beacon.gives_way_to == s.options.id || StaysPut(beacon) ||
-                                  halted || WaitsAtSignal(view, s));
+                                  Halts(view) || WaitsAtSignal(view, s));
   view.explains = view.fresh ? EchoesOf(view, s) : 0;
 }
 

@@ -141,6 +141,21 @@ struct OwnMotion {
   bool turns = false;            // sharply, or did just now: echoes do not show which of both moves
 };
 
+// A one-lane place that the own path leads through or into, or that this vehicle is in.
+struct LaneAhead {
+  const OneLane* lane;
+  Stretch own;   // of the own path
+  bool forward;  // from the first end of the lane to its second
+};
+
+// The nearest of them: see one_lane.h.
+struct LanesAhead {
+  std::array<LaneAhead, 4> of;  // the first `count`
+  std::size_t count = 0;
+
+  std::span<const LaneAhead> All() const { return {of.data(), count}; }
+};
+
 // Where it drives to.
 struct OwnCourse {
   Path path;                      // towards the goal, or straight on
@@ -148,6 +163,7 @@ struct OwnCourse {
   double distance_to_goal_m = 0;  // or to the next waypoint; huge without either
   bool stops_there = false;       // at the goal; a waypoint is driven through
   bool arrived = false;
+  LanesAhead lanes;
 };
 
 // What its sensors hold.

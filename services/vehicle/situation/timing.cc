@@ -14,8 +14,9 @@ constexpr double kGoneMargin_s = 0.3;      // it has left, and a beacon has repo
 
 // Two vehicles that pass a conflict one after the other need less distance than two that stop
 // wherever they like: one is past the crossing by as much as the other is before it. With the angle
-// a between the paths both may be nearer to it by sin(a / 2).
+// a between the paths both may be nearer to it by sin(a / 2). Of a one-lane place they need all.
 Conflict Shrunk(const Conflict& conflict, Vec2 own_path, Vec2 peer_path) {
+  if (conflict.one_lane) return conflict;
   const double share = Sqrt(std::clamp((1 - Dot(own_path, peer_path)) / 2, 0.25, 1.0));
   const auto shrunk = [share](const Stretch& stretch) {
     const double middle_m = (stretch.begin_m + stretch.end_m) / 2;
@@ -31,16 +32,37 @@ Conflict InTurn(const Conflict& conflict, Vec2 own_path, Vec2 peer_path) {
   return Shrunk(conflict, own_path, peer_path);
 }
 
+// How fast the peer may drive soon.
+double FastestOf(const RelatedPeer& view) {
+  return kPeerSpeedSlack * std::max(view.peer->beacon.cruise_m_s, view.speed_m_s);
+}
+
+// Who is in a one-lane place is waited for by all that come towards it, whatever the order: it is
+// enough to be in before the peer, hearing of that, could not stop outside any more.
+bool IsInFirst(const RelatedPeer& view, const OwnView& s) {
+  const double fastest_m_s = FastestOf(view);
+  if (fastest_m_s <= 0) return true;
+  const Conflict& conflict = *view.conflict;
+  const Beacon& beacon = view.peer->beacon;
+  const double own_s = TimeToCover(conflict.own.begin_m, std::max(0.0, s.speed_m_s),
+                                   s.options.cruise_m_s, s.options.profile.acceleration_m_s2);
+  const double stops_m = StoppingDistance(fastest_m_s, s.reaction_s, beacon.deceleration_m_s2);
+  const double peer_s = TimeToCover(conflict.peer.begin_m - stops_m, std::max(0.0, view.speed_m_s),
+                                    fastest_m_s, beacon.acceleration_m_s2);
+  return own_s + kOneLaneHeard_s < peer_s;
+}
+
 }  // namespace
 
 bool IsThroughFirst(const RelatedPeer& view, const OwnView& s) {
   if (!view.conflict || MutantActive(Mutant::kThroughFirstGuessed)) return true;
+  if (view.conflict->one_lane) return IsInFirst(view, s);
   const Beacon& beacon = view.peer->beacon;
   const Conflict conflict =
       InTurn(*view.conflict, s.path.direction_world, view.path_direction_world);
   const double own_s = TimeToCover(conflict.own.end_m, std::max(0.0, s.speed_m_s),
                                    s.options.cruise_m_s, s.options.profile.acceleration_m_s2);
-  const double fastest = kPeerSpeedSlack * std::max(beacon.cruise_m_s, view.speed_m_s);
+  const double fastest = FastestOf(view);
   if (fastest <= 0) return true;
   const double peer_s = TimeToCover(conflict.peer.begin_m, std::max(0.0, view.speed_m_s), fastest,
                                     beacon.acceleration_m_s2);

@@ -66,6 +66,23 @@ TEST(PlaceRules, WallsLeavesAndStopLinesHaveALength) {
               ElementsAre(Is(17, "signal[0].line.to", "the stop line has no length")));
 }
 
+TEST(PlaceRules, AOneLanePlaceHasTwoEndsAndAWidth) {
+  EXPECT_THAT(With("one_lane { from { x_m: 8 y_m: 1 } to { x_m: 8 y_m: 1 } width_m: 0.01 }"),
+              ElementsAre(Is(17, "one_lane[0].to", "the one-lane place has no length"),
+                          Is(17, "one_lane[0].width_m", "between 0.1 and 100 m")));
+  EXPECT_THAT(With("one_lane { from { x_m: nan y_m: 1 } width_m: 1 }"),
+              ElementsAre(Is(17, "one_lane[0].from.x_m", "not a finite number"),
+                          Is(17, "one_lane[0].to", "missing")));
+}
+
+TEST(PlaceRules, ThereAreAtMostSixtyFourOneLanePlaces) {
+  std::string text;
+  for (int i = 0; i < 65; ++i) {
+    text += "one_lane { from { x_m: 0 y_m: 0 } to { x_m: 1 y_m: 0 } width_m: 1 } ";
+  }
+  EXPECT_THAT(With(text), ElementsAre(Is(17, "one_lane[64]", "at most 64")));
+}
+
 TEST(PlaceRules, AnObstacleHasOneShapeAndAPlace) {
   EXPECT_THAT(With("obstacle { }"), ElementsAre(Is(17, "obstacle[0]", "no shape"),
                                                 Is(17, "obstacle[0].start", "missing")));

@@ -133,6 +133,20 @@ TEST(Place, ADoorKnowsItsJambsAndTimes) {
   EXPECT_EQ(scenario.doors[1].move_s, Door{}.move_s);
 }
 
+TEST(Place, AOneLanePlaceIsKnownToEveryVehicle) {
+  const Scenario scenario = Load(kGoodScenario +
+                                 "emission_radius_m: 20 one_lane { from { x_m: 1 y_m: 2 } "
+                                 "to { x_m: 3 y_m: 4 } width_m: 0.9 }");
+  ASSERT_EQ(scenario.one_lanes.size(), 1U);
+  EXPECT_EQ(scenario.one_lanes[0].from_world, (Vec2{1, 2}));
+  EXPECT_EQ(scenario.one_lanes[0].to_world, (Vec2{3, 4}));
+  EXPECT_EQ(scenario.one_lanes[0].width_m, 0.9);
+  for (const VehicleOptions& vehicle : scenario.vehicles) {
+    ASSERT_EQ(vehicle.one_lanes.size(), 1U);
+    EXPECT_EQ(vehicle.one_lanes[0].to_world, (Vec2{3, 4}));
+  }
+}
+
 TEST(Place, SignalsComeSortedWithTheirPlans) {
   const std::string line = "line { from { x_m: -1 y_m: -1 } to { x_m: -1 y_m: 1 } } heading_deg: 0";
   const Scenario scenario =

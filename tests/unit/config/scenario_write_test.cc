@@ -15,6 +15,7 @@ Scenario AnyScenario() {
   scenario.name = "any";
   scenario.duration_s = 12.3456;
   scenario.walls = {{{0.12345, 5}, {6, 7.00049}}};
+  scenario.one_lanes = {{{1.00049, 2}, {3, 4}, 0.98765}};
   scenario.expect.any_halted = true;
   scenario.expect.halted_for = Rule::kPeerLost;
   scenario.expect.arrived = {VehicleId{3}};
@@ -51,6 +52,11 @@ TEST(WrittenScenario, ReadsBackBitForBitOnceItIsRounded) {
   EXPECT_EQ(vehicle.route.waypoints_world[0], (Vec2{1, 2}));
   ASSERT_EQ(read.walls.size(), 1U);
   EXPECT_EQ(read.walls[0].to_world, (Vec2{6, 7}));
+  ASSERT_EQ(read.one_lanes.size(), 1U);
+  EXPECT_EQ(read.one_lanes[0].from_world, (Vec2{1, 2}));
+  EXPECT_EQ(read.one_lanes[0].width_m, 0.988);
+  ASSERT_EQ(written.vehicles[0].one_lanes.size(), 1U);
+  EXPECT_EQ(vehicle.one_lanes[0].width_m, written.vehicles[0].one_lanes[0].width_m);
   ASSERT_EQ(read.faults.size(), 1U);
   EXPECT_EQ(read.faults[0].at_s, 4);
   EXPECT_TRUE(read.expect.any_halted);

@@ -202,6 +202,32 @@ TEST(NarrowGenerators, LetTheLargestThroughAndNoTwoAbreast) {
   }
 }
 
+// Both waypoints of the passage lie in the place, every start outside, and whoever waits at one end
+// hears those at the other.
+TEST(NarrowGenerators, SayInTheMapWhereNoTwoPass) {
+  constexpr double kTwoBodies_m = 1.5;
+  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
+    for (const char* name : {"door", "one_lane"}) {
+      const Scenario scenario = FindGenerator(name)->make({8, seed});
+      const double width_m = scenario.walls[0].from_world.y - scenario.walls[6].from_world.y;
+      ASSERT_EQ(scenario.one_lanes.size(), width_m < kTwoBodies_m ? 1U : 0U) << name << seed;
+      for (const VehicleOptions& vehicle : scenario.vehicles) {
+        ASSERT_EQ(vehicle.one_lanes.size(), scenario.one_lanes.size());
+        if (scenario.one_lanes.empty()) continue;
+        const OneLane& lane = vehicle.one_lanes[0];
+        const auto from_axis = [&lane](Vec2 at) {
+          return Distance({lane.from_world, lane.to_world}, at);
+        };
+        EXPECT_LT(from_axis(vehicle.route.waypoints_world[0]), lane.width_m / 2);
+        EXPECT_LT(from_axis(vehicle.route.waypoints_world[1]), lane.width_m / 2);
+        EXPECT_GT(from_axis(vehicle.start_world.position_world), lane.width_m / 2 + 0.7);
+        EXPECT_GT(vehicle.emission_radius_m,
+                  Norm(lane.to_world - lane.from_world) + lane.width_m + 3);
+      }
+    }
+  }
+}
+
 TEST(ParkingGenerator, LetsSomeIntoTheBayOfOneThatLeaves) {
   int taken = 0;
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {

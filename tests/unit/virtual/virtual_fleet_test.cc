@@ -140,5 +140,23 @@ TEST(VirtualFleet, WhatTheRadioLosesTheBrainCountsAsLost) {
   EXPECT_NEAR(counters.taken + counters.lost, 399, 6);
 }
 
+// Regression: vehicles met in the middle of a passage one body wide, and none arrived.
+TEST(VirtualRun, EveryVehicleGetsThroughAPassageOneBodyWide) {
+  for (const char* name : {"door", "one_lane"}) {
+    for (const SonarTier tier : {SonarTier::kIdeal, SonarTier::kTypical}) {
+      for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+        Scenario scenario = FindGenerator(name)->make({6, seed});
+        scenario.sonar.tier = tier;
+        for (VehicleOptions& vehicle : scenario.vehicles) {
+          vehicle.sonar_noise = tier == SonarTier::kIdeal ? 0 : scenario.sonar.noise;
+        }
+        const VirtualOutcome outcome = RunVirtually(scenario, {});
+        EXPECT_TRUE(outcome.held) << name << " " << seed;
+        EXPECT_EQ(outcome.delays_s.size(), 6U) << name << " " << seed;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace giveway::sim

@@ -29,7 +29,8 @@ TEST_P(ShippedRightOfWay, ComesToWhatItExpectsWithEverySeed) {
 INSTANTIATE_TEST_SUITE_P(Scenarios, ShippedRightOfWay,
                          testing::Values("head_on", "three_way", "four_way", "deaf",
                                          "parked_nose_to_nose", "convoy", "intersection_yield",
-                                         "intersection_equal", "wall_only", "peer_dies"),
+                                         "intersection_equal", "wall_only", "peer_dies",
+                                         "narrow_door", "narrow_passage"),
                          [](const auto& test) { return std::string(test.param); });
 
 }  // namespace
