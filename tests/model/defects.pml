@@ -48,6 +48,11 @@
 
 #ifdef THROUGH_FIRST_GUESSED
 #define IsThroughFirst(own, peer, age) true
+#elif defined(IN_FIRST_GUESSED)
+#define IsThroughFirst(own, peer, age) (StepsToZone(own) <= StepsToZone(peer))
+#elif defined(ONE_LANE)
+/* In before the peer, hearing of it, is where it can stop outside for the last time. */
+#define IsThroughFirst(own, peer, age) (StepsToZone(own) < StepsToZone(peer) - 1 - (age))
 #else
 #define IsThroughFirst(own, peer, age) (StepsThrough(own) < StepsToZone(peer) - (age))
 #endif

@@ -7,7 +7,7 @@
  *   Hear            PeerTable::Take, IsFresh, IsLost                            peer_table.cc
  *   PrecedesByKey   PrecedesByKey, HasPriority: by both keys as published       beacon.h
  *   Look            RelatePeers, CrossingWith: conflict, grants, has_priority   peer_relation.cc
- *   IsThroughFirst  IsThroughFirst                                              timing.cc
+ *   IsThroughFirst  IsThroughFirst; of ONE_LANE IsInFirst                       timing.cc
  *   UpdateFresh     UpdateEncounters, Begins, IsOver, Holds, SecondMustStop     encounter.cc
  *   MayCross        MayCrossBefore                                              encounter.cc
  *   UpdateLost      UpdateLost, Holds of a lost peer                            encounter.cc
@@ -32,7 +32,7 @@
  *
  * Switches: N vehicles; AGE ticks a beacon is trusted; CRASHES, RESTARTS in all; ONCE: no vehicle
  * comes again; EVEN: one speed; STALL: a rolling vehicle may be slow; ONE_STEP: through the zone in
- * one tick; NO_CLAIMS, NO_AGREEMENT: one of the two lines of defence is missing; ONLY_EXCLUSION: the
+ * one tick; ONE_LANE: the zone is a one-lane place, driven through from both ends; NO_CLAIMS, NO_AGREEMENT: one of the two lines of defence is missing; ONLY_EXCLUSION: the
  * other safety properties are not checked; WEATHER: losses end eventually, and WHO must pass; the
  * injected defects. runs.txt says which are tried together, and what SPIN must find.
  */
@@ -78,6 +78,13 @@
 #define LOST 0            /* nothing fresh */
 #define LOST_LONG (AGE + 1) /* for so long that it had the time to pass */
 #define IsFresh(a) ((a) >= 1 && (a) <= AGE)
+
+/* In a one-lane place nothing is steered round. */
+#ifdef ONE_LANE
+#define IsSteeredRound false
+#else
+#define IsSteeredRound true
+#endif
 
 #define NOBODY 0 /* in gives_way_to; others are index + 1 */
 
@@ -134,7 +141,7 @@ inline Look(i) {
   a = TrustedAge(heard[j]);
   standing = p == GATE;
   has_priority = HasPriority(Said(j, heard[j]).waited, j, order[i], i);
-  conflict = IsConflict(p) && !(standing && !has_priority);
+  conflict = IsConflict(p) && !(IsSteeredRound && standing && !has_priority);
   grants = Grants(Said(j, heard[j]).gives_way_to == i + 1 || (standing && !has_priority));
   through = !conflict || (IsNear(place[i]) && IsThroughFirst(place[i], p, a))
 }
