@@ -172,7 +172,7 @@ Obstacle ReadObstacle(const Section& section) {
 }
 
 OneLane ReadOneLane(const Section& section) {
-  const Ends ends = ReadEnds(section, "one-lane place");
+  const Ends ends = ReadEnds(section, "one-lane section");
   return {ends.from_world, ends.to_world, section.Number("width_m", {0.1, 100, "m"})};
 }
 

@@ -1,4 +1,4 @@
-// What a scenario file says of its place: walls, obstacles, one-lane places, doors, signal heads,
+// What a scenario file says of its place: walls, obstacles, one-lane sections, doors, signal heads,
 // and how its ultrasonics hear. Where bodies stand is judged elsewhere (start_rules.cc).
 #pragma once
 

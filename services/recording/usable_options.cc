@@ -53,9 +53,9 @@ std::string WhyUnusable(const VehicleOptions& options) {
   if (options.id == kNoVehicle) return "options name no vehicle";
   if (options.tick_period < std::chrono::milliseconds(1)) return "options have no tick";
   if (options.route.count > kMaxWaypoints) return "options have too long a route";
-  if (options.one_lanes.size() > kMaxOneLanes) return "options have too many one-lane places";
+  if (options.one_lanes.size() > kMaxOneLanes) return "options have too many one-lane sections";
   if (std::ranges::any_of(options.one_lanes, HasNoLength)) {
-    return "options have a one-lane place without a length";
+    return "options have a one-lane section without a length";
   }
   if (std::ranges::any_of(lengths, [](double x) { return x < kLeastLength_m; }) ||
       !(options.cruise_m_s > 0) || options.cruise_m_s > kMaxSpeed_m_s) {

@@ -180,7 +180,7 @@ std::vector<Mark> MarksOf(const Scenario& scenario) {
   if (!scenario.spawns.empty()) marks.push_back({"spawn place", DrawSpawnMark});
   if (moving < all) marks.push_back({"obstacle", DrawStandingMark});
   if (moving > 0) marks.push_back({"moving obstacle at its start, its route", DrawMovingMark});
-  if (!scenario.one_lanes.empty()) marks.push_back({"one-lane place", DrawOneLaneMark});
+  if (!scenario.one_lanes.empty()) marks.push_back({"one-lane section", DrawOneLaneMark});
   if (!scenario.doors.empty()) marks.push_back({"door", DrawDoorMark});
   if (!scenario.signals.empty()) marks.push_back({"stop line and signal head", DrawSignalMark});
   return marks;

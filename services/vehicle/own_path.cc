@@ -31,7 +31,7 @@ constexpr std::uint32_t kStuckAgainTicks =
 constexpr double kStuckWithin_m = 0.1;
 constexpr std::uint32_t kStuckAfterTicks = 200;
 
-// How near it must come to a waypoint in a one-lane place, to turn into the place with all of its
+// How near it must come to a waypoint in a one-lane section, to turn into it with all of its
 // body inside.
 double PassingRadius(const OneLane& lane, const VehicleOptions& options) {
   const double beside_m = lane.width_m / 2 - options.profile.body_radius_m;
@@ -39,7 +39,7 @@ double PassingRadius(const OneLane& lane, const VehicleOptions& options) {
 }
 
 // A waypoint that is occupied is passed at a distance, once it cannot be reached. Not one in a
-// one-lane place, nor from within one: there is no way round.
+// one-lane section, nor from within one, which has no path around it.
 bool PassesWaypoint(std::uint32_t waypoint, const VehicleOptions& options, bool detours,
                     Vec2 position_world) {
   if (waypoint >= options.route.count) return false;

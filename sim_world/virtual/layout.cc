@@ -16,7 +16,7 @@ constexpr double kFastest_m_s = 0.6;
 constexpr double kSpare_s = 60;
 constexpr double kTurn_s = 12;  // where two paths cross; a longer place takes longer
 
-// How far vehicles must hear each other, on either side of the longest place.
+// How far vehicles must hear each other, on either side of the longest section.
 double RadioForOneLanes(std::span<const OneLane> lanes) {
   constexpr double kBefore_m = 4;  // both wait outside, and must stop there
   double longest_m = 0;

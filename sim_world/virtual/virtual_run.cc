@@ -96,7 +96,7 @@ void ObserveFleet(const VirtualFleet& fleet, std::vector<Observed>* observed) {
 
 namespace {
 
-// How long it takes through the longest of its one-lane places.
+// How long it takes through the longest of its one-lane sections.
 double LongestPassageSeconds(const VehicleOptions& options) {
   double longest_m = 0;
   for (const OneLane& lane : options.one_lanes) {

@@ -32,7 +32,7 @@
  *
  * Switches: N vehicles; AGE ticks a beacon is trusted; CRASHES, RESTARTS in all; ONCE: no vehicle
  * comes again; EVEN: one speed; STALL: a rolling vehicle may be slow; ONE_STEP: through the zone in
- * one tick; ONE_LANE: the zone is a one-lane place, driven through from both ends; NO_CLAIMS, NO_AGREEMENT: one of the two lines of defence is missing; ONLY_EXCLUSION: the
+ * one tick; ONE_LANE: the zone is a one-lane section, driven through from both ends; NO_CLAIMS, NO_AGREEMENT: one of the two lines of defence is missing; ONLY_EXCLUSION: the
  * other safety properties are not checked; WEATHER: losses end eventually, and WHO must pass; the
  * injected defects. runs.txt says which are tried together, and what SPIN must find.
  */
@@ -79,7 +79,7 @@
 #define LOST_LONG (AGE + 1) /* for so long that it had the time to pass */
 #define IsFresh(a) ((a) >= 1 && (a) <= AGE)
 
-/* In a one-lane place nothing is steered round. */
+/* In a one-lane section nothing is steered round. */
 #ifdef ONE_LANE
 #define IsSteeredRound false
 #else

@@ -34,7 +34,7 @@ struct Conflict {
   Stretch own;
   Stretch peer;
   bool across = false;    // at more than 30 degrees, not along each other or against
-  bool one_lane = false;  // from end to end of a place that has room for one: one_lane.h
+  bool one_lane = false;  // from end to end of a one-lane section: one_lane.h
 };
 
 // Empty if the paths never come within `reach_m`, or either vehicle has its stretch behind it.

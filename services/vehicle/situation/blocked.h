@@ -17,8 +17,8 @@ PriorityKey ActingOrder(const PriorityKey& own, const PeerTable& peers, VehicleI
 // steer round. kNoVehicle if there is none.
 VehicleId BlockedBy(const Situation& s, const Decision& decision, VehicleId not_passed);
 
-// True if this vehicle holds for that peer while it acts by this one's key: were the key taken
-// back, this vehicle would drive on until the peer blocks it, and lend it again.
+// True if this vehicle holds for that peer while that acts by the key it inherited from this one.
+// Without the key this vehicle would drive on until the peer blocks it, which would inherit again.
 bool IsHeldByOwnKey(VehicleId peer, const Situation& s);
 
 // True if that peer is fresh and near enough to block this vehicle again at once.

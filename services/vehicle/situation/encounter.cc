@@ -95,14 +95,14 @@ bool MustClear(const PeerView& view, const OwnView& s) {
   return IsThroughFirst(view, s);
 }
 
-// Outside a one-lane place that the peer drives through the other way.
+// Outside a one-lane section that the peer drives through in the other direction.
 bool IsOutside(const PeerView& view) {
   return view.conflict && view.conflict->one_lane && view.conflict->own.begin_m > 0;
 }
 
-// In a one-lane place, and the peer does not come towards it there: it drives out, for more wait
+// In a one-lane section, and the peer does not come towards it there: it drives out, for more wait
 // for that than for the peer.
-bool LeavesPlace(const PeerView& view, const OwnView& s) {
+bool LeavesSection(const PeerView& view, const OwnView& s) {
   if (view.conflict && view.conflict->one_lane) return false;
   return std::ranges::any_of(s.lanes.All(),
                              [](const LaneAhead& lane) { return lane.own.begin_m <= 0; });
@@ -110,7 +110,7 @@ bool LeavesPlace(const PeerView& view, const OwnView& s) {
 
 // A vehicle that blocks one with priority, by its body or by standing on its goal, gives way by
 // driving on: also at the far end of a queue in which each blocks the next. Not into a one-lane
-// place, where it would block more.
+// section, where it would block more.
 bool IsInPath(const PeerView& view, std::span<const PeerView> views, const OwnView& s) {
   if (IsOutside(view)) return false;
   return IsBehind(view.peer->beacon.blocked_by, s.options.id, views) || IsOnGoalOf(view, s);
@@ -144,7 +144,7 @@ bool EntersOnSignal(const PeerView& view, const OwnView& s) {
 // order meanwhile. The others hold because it does not say that it gives way.
 bool EntersBox(const PeerView& view, const OwnView& s) {
   if (s.options.behaviour != Behaviour::kCooperative || view.lost) return false;
-  // A one-lane place may start later than the box that it is part of.
+  // A one-lane section may start later than the box that it is part of.
   const double before_m = IsOutside(view) ? view.conflict->own.begin_m : HoldsBefore(view);
   return s.speed_m_s >= kStandingSpeed_m_s && before_m <= OwnStoppingDistance(s);
 }
@@ -182,7 +182,7 @@ bool Holds(const PeerView& view, const OwnView& s) {
     return held || s.options.behaviour == Behaviour::kLectureYield || MustBrakeNow(view, s);
   }
   if (view.peer->encounter.clears) return false;
-  if (view.peer->encounter.entered || LeavesPlace(view, s)) return false;
+  if (view.peer->encounter.entered || LeavesSection(view, s)) return false;
   if (IsOutside(view) && view.conflict->peer.begin_m <= 0) {
     return !IsGoneInTime(view, s) && (held || MustBrakeNow(view, s));
   }
@@ -199,7 +199,7 @@ bool Holds(const PeerView& view, const OwnView& s) {
 bool CanGiveWay(const PeerView& view, const OwnView& s) {
   const Encounter& encounter = view.peer->encounter;
   if (!view.has_priority || encounter.entered || encounter.clears || MustClear(view, s) ||
-      LeavesPlace(view, s)) {
+      LeavesSection(view, s)) {
     return false;
   }
   const bool stands = s.speed_m_s < kStandingSpeed_m_s;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kAtTarget_m = 0.05;  // nearer to its target the direction to it says little
 
-// A disc on its way to a point.
+// A disc that drives to a point.
 struct MovingDisc {
   Path path;
   double path_m;  // to that point
@@ -18,7 +18,7 @@ struct MovingDisc {
   PoseCovariance covariance;
 };
 
-// The stretch of its path on which it is in the place.
+// The stretch of its path on which it is in the section.
 Stretch Inside(const OneLane& lane, const MovingDisc& disc) {
   const Vec2 along = lane.to_world - lane.from_world;
   const double length_m = Norm(along);

@@ -81,7 +81,7 @@ bool WaitsAtSignal(const RelatedPeer& view, const OwnView& s) {
 }
 
 // It stands, comes later in the order and says so: it gives way to any that comes first. Before a
-// one-lane place it need not say so, for it stops there again.
+// one-lane section it need not say so, for it stops there again.
 bool Halts(const RelatedPeer& view) {
   if (!view.standing || view.has_priority) return false;
   const bool one_lane = view.crossing && view.crossing->one_lane;
@@ -262,7 +262,8 @@ void Relate(RelatedPeer* related, const OwnView& s) {
   const bool follows = goes_on && !one_lane && Follows(view, view.standing, s);
   view.leads = follows && Dot(view.offset_world, s.path.direction_world) > 0;
   if (goes_on && !one_lane && !follows) FindCrossing(&view, s);
-  // One that stands and comes later in the order is a body to steer round, where there is room.
+  // One that stands and comes later in the order is a body to steer round, if not in a one-lane
+  // section.
   const bool stands = view.standing && (view.believed || !view.fresh);
   const bool steered_round = cooperative && stands && !view.has_priority && !one_lane;
   if (!steered_round) view.conflict = view.crossing;

@@ -141,7 +141,7 @@ struct OwnMotion {
   bool turns = false;            // sharply, or did just now: echoes do not show which of both moves
 };
 
-// A one-lane place that the own path leads through or into, or that this vehicle is in.
+// A one-lane section that the own path leads through or into, or that this vehicle is in.
 struct LaneAhead {
   const OneLane* lane;
   Stretch own;   // of the own path

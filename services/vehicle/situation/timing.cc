@@ -14,7 +14,7 @@ constexpr double kGoneMargin_s = 0.3;      // it has left, and a beacon has repo
 
 // Two vehicles that pass a conflict one after the other need less distance than two that stop
 // wherever they like: one is past the crossing by as much as the other is before it. With the angle
-// a between the paths both may be nearer to it by sin(a / 2). Of a one-lane place they need all.
+// a between the paths both may be nearer to it by sin(a / 2). Of a one-lane section they need all.
 Conflict Shrunk(const Conflict& conflict, Vec2 own_path, Vec2 peer_path) {
   if (conflict.one_lane) return conflict;
   const double share = Sqrt(std::clamp((1 - Dot(own_path, peer_path)) / 2, 0.25, 1.0));
@@ -37,7 +37,7 @@ double FastestOf(const RelatedPeer& view) {
   return kPeerSpeedSlack * std::max(view.peer->beacon.cruise_m_s, view.speed_m_s);
 }
 
-// Who is in a one-lane place is waited for by all that come towards it, whatever the order: it is
+// Who is in a one-lane section is waited for by all that come towards it, whatever the order: it is
 // enough to be in before the peer, hearing of that, could not stop outside any more.
 bool IsInFirst(const RelatedPeer& view, const OwnView& s) {
   const double fastest_m_s = FastestOf(view);

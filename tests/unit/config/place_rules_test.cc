@@ -68,7 +68,7 @@ TEST(PlaceRules, WallsLeavesAndStopLinesHaveALength) {
 
 TEST(PlaceRules, AOneLanePlaceHasTwoEndsAndAWidth) {
   EXPECT_THAT(With("one_lane { from { x_m: 8 y_m: 1 } to { x_m: 8 y_m: 1 } width_m: 0.01 }"),
-              ElementsAre(Is(17, "one_lane[0].to", "the one-lane place has no length"),
+              ElementsAre(Is(17, "one_lane[0].to", "the one-lane section has no length"),
                           Is(17, "one_lane[0].width_m", "between 0.1 and 100 m")));
   EXPECT_THAT(With("one_lane { from { x_m: nan y_m: 1 } width_m: 1 }"),
               ElementsAre(Is(17, "one_lane[0].from.x_m", "not a finite number"),

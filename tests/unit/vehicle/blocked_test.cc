@@ -52,8 +52,9 @@ TEST(ActingOrder, IsTheOwnAgainOnceTheOneThatLentItIsGone) {
 }
 
 // Regression: one that waited before a crossing by the key of the one behind it lost that key every
-// second, for it was given way to and blocked nobody then; both waited for each other meanwhile.
-TEST(BlockedBy, LastsAsLongAsTheKeyLentIsWhatItIsHeldBy) {
+// second, for the other gave way to it then and was blocked by none; meanwhile the two in front
+// waited for each other.
+TEST(BlockedBy, LastsAsLongAsTheInheritedKeyIsWhatItHoldsFor) {
   test::BrainBench bench(test::OptionsWithoutUltrasonics());
   // Stands ahead in the lane, and later, by the own key, across it.
   const auto beacon_at = [](std::uint32_t tick, double heading_rad) {

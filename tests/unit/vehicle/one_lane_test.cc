@@ -1,5 +1,5 @@
-// A place in which no two vehicles pass each other: one brain on the bench, heading east from the
-// origin at 0.3 m/s through a place that lies between x = 3 and x = 9.
+// A section in which no two vehicles pass each other: one brain on the bench, heading east from the
+// origin at 0.3 m/s through a section that lies between x = 3 and x = 9.
 #include "services/vehicle/situation/one_lane.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ using test::ClearScan;
 constexpr double kCruise_m_s = 0.3;
 constexpr double kSlower_m_s = 0.2;  // comes later in the order
 constexpr double kFaster_m_s = 0.4;  // comes first
-const OneLane kPlace = {.from_world = {3, 0}, .to_world = {9, 0}, .width_m = 1};
+const OneLane kSection = {.from_world = {3, 0}, .to_world = {9, 0}, .width_m = 1};
 // Half of the width, the body and the margin before the end.
 constexpr double kOutside_m = 3 - (0.5 + 0.25 + kOneLaneMargin_m);
 
@@ -30,7 +30,7 @@ WheelSpeeds Rolling(double speed_m_s) { return {speed_m_s / 0.0975, speed_m_s / 
 VehicleOptions Options() {
   VehicleOptions options = test::OptionsWithoutUltrasonics();
   options.emission_radius_m = 50;
-  options.one_lanes = {kPlace};
+  options.one_lanes = {kSection};
   return options;
 }
 
@@ -86,25 +86,25 @@ TEST(OneLane, IsNotEnteredWhileAnotherComesTowardsInIt) {
 }
 
 // Regression: one that stood in it and gave way to a third was taken to let this one in.
-TEST(OneLane, OneThatHaltsInItLetsNobodyIn) {
+TEST(OneLane, OneThatHaltsInItLetsNoneIn) {
   EXPECT_LT(DrivesUpTo(PeerAt(8, kSlower_m_s, Rule::kGiveWay)), kOutside_m);
   EXPECT_LT(DrivesUpTo(PeerAt(8, kSlower_m_s, Rule::kObstacle)), kOutside_m);
 }
 
-// Regression: one that looked for a way past something stood turned round, and was followed.
+// Regression: one that looked for a path past something stood turned round, and was followed.
 TEST(OneLane, OneThatStandsTurnedRoundInItIsNotFollowed) {
   Beacon turned = PeerAt(6, kSlower_m_s, Rule::kObstacle);
   turned.world_from_body.heading_rad = 0;
   turned.toward_world = {-90, 0};
   EXPECT_LT(DrivesUpTo(turned), kOutside_m);
   test::Onlooker onlooker;
-  onlooker.Knows(kPlace);
+  onlooker.Knows(kSection);
   Peer peer = test::PeerAt(turned.world_from_body);
   peer.beacon.toward_world = turned.toward_world;
   EXPECT_FALSE(onlooker.RelatePeer(&peer).leads);
 }
 
-// Regression: it stood in a queue, gave way to nobody, and was waited for without end.
+// Regression: it stood in a queue, gave way to none, and was waited for without end.
 TEST(OneLane, OneThatQueuesOutsideLetsTheFirstInWithoutSayingSo) {
   Beacon queues = PeerAt(10, kSlower_m_s, Rule::kKeepClear);
   queues.blocked_by = VehicleId{9};
@@ -115,7 +115,7 @@ TEST(OneLane, OneThatComesFirstAndIsNearIsLetInFirst) {
   EXPECT_LT(DrivesUpTo(Rolls(PeerAt(11, kFaster_m_s))), kOutside_m);
 }
 
-// Whoever is in is waited for: it is enough to be in before the other could be.
+// One that is in is waited for: it is enough to be in before the other could be.
 TEST(OneLane, OneThatComesFirstAndIsFarIsNotWaitedFor) {
   EXPECT_GT(DrivesUpTo(Rolls(PeerAt(25, kFaster_m_s))), 4);
 }
@@ -134,8 +134,8 @@ TEST(OneLane, IsDrivenThroughOneBehindTheOther) {
   EXPECT_GT(DrivesUpTo(Rolls(ahead)), kOutside_m + 0.3);
 }
 
-// Regression: one that stood where a peer wanted to be drove on to make room, into the place.
-TEST(OneLane, IsNotEnteredToMakeRoomForOneThatIsIn) {
+// Regression: one that stood where a peer wanted to be drove on to clear that, into the section.
+TEST(OneLane, IsNotEnteredToClearTheGoalOfOneThatIsIn) {
   Beacon leaves = PeerAt(8, kFaster_m_s);
   leaves.toward_world = {1.8, 0};
   EXPECT_LT(DrivesUpTo(Rolls(leaves)), kOutside_m);
@@ -166,8 +166,8 @@ TEST(OneLane, IsLeftBeforeAnyOfTheOwnSideIsGivenWayTo) {
   EXPECT_EQ(before_it().beacon.gives_way_to, VehicleId{3});
 }
 
-// Regression: past the point where it could stop before a crossing it drove on into the place that
-// starts behind it, where another one had come in meanwhile.
+// Regression: past the point where it could stop before a crossing it drove on into the section
+// that starts behind it, where another one had come in meanwhile.
 TEST(OneLane, IsNotEnteredBecauseTheCrossingBeforeItIs) {
   const double place_m = PlaceOf(Drive([](double x_m) {
     Beacon crosses = CrossesAt(1.5, -1.2, kSlower_m_s);
@@ -226,7 +226,7 @@ TEST(LanesAhead, AreTheNearestWhereThereAreMany) {
 }
 
 TEST(OneLaneAt, IsWhereThePointIsWithinHalfOfTheWidth) {
-  const std::vector<OneLane> lanes = {{{20, 0}, {21, 0}, 1}, kPlace};
+  const std::vector<OneLane> lanes = {{{20, 0}, {21, 0}, 1}, kSection};
   EXPECT_EQ(FindOneLane({5, 0.49}, lanes), &lanes[1]);
   EXPECT_EQ(FindOneLane({5, 0.51}, lanes), nullptr);
   EXPECT_EQ(FindOneLane({2.6, 0.2}, lanes), &lanes[1]);
@@ -237,7 +237,7 @@ TEST(OneLaneAt, IsWhereThePointIsWithinHalfOfTheWidth) {
 TEST(OneLane, NoPeerThatMeetsThisVehicleThereIsTakenForIrrelevant) {
   Random dice(1, 0);
   test::Onlooker onlooker;
-  onlooker.Knows(kPlace);
+  onlooker.Knows(kSection);
   int meet = 0;
   for (int i = 0; i < 20'000; ++i) {
     Peer peer = test::PeerAt({{dice.Uniform(-5, 30), dice.Uniform(-8, 8)}, dice.Uniform(-kPi, kPi)},
@@ -252,8 +252,8 @@ TEST(OneLane, NoPeerThatMeetsThisVehicleThereIsTakenForIrrelevant) {
   EXPECT_GT(meet, 1000);
 }
 
-// It turns into the place with all of its body inside: nearer to the axis than there is room beside
-// the body.
+// It turns into the section with all of its body inside: nearer to the axis than half of what the
+// width exceeds the body by.
 TEST(OneLane, AWaypointInItIsPassedNearer) {
   const auto passes = [](double away_m, double width_m) {
     VehicleOptions options = Options();
@@ -274,7 +274,7 @@ TEST(OneLane, AWaypointInItIsPassedNearer) {
 }
 
 // Regression: on a detour in a doorway it passed the exit for one it could not reach, another one
-// beside a passage the entry, and both drove at the wall for ever.
+// next to a passage the entry, and both drove at the wall for ever.
 TEST(OneLane, NoWaypointInItNorFromWithinItIsPassedAtADistance) {
   const auto passes = [](double from_m, double waypoint_m) {
     VehicleOptions options = Options();

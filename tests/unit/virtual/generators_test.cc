@@ -202,8 +202,8 @@ TEST(NarrowGenerators, LetTheLargestThroughAndNoTwoAbreast) {
   }
 }
 
-// Both waypoints of the passage lie in the place, every start outside, and whoever waits at one end
-// hears those at the other.
+// Both waypoints of the passage lie in the section, every start outside, and one that waits at one
+// end hears those at the other.
 TEST(NarrowGenerators, SayInTheMapWhereNoTwoPass) {
   constexpr double kTwoBodies_m = 1.5;
   for (std::uint32_t seed = 1; seed <= 200; ++seed) {
