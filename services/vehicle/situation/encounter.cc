@@ -4,6 +4,7 @@
 
 #include "services/vehicle/estimation/injected_mutants.h"
 #include "services/vehicle/situation/blocked.h"
+#include "services/vehicle/situation/one_lane.h"
 #include "services/vehicle/situation/timing.h"
 
 namespace giveway {
@@ -171,10 +172,22 @@ bool MayCrossBefore(const PeerView& view, const OwnView& s) {
   return waits_for != kNoVehicle && waits_for != s.options.id;
 }
 
+// Before a one-lane section this vehicle drives in behind others of its direction while the peer
+// waits outside: each change of direction takes the time of a passage. Not if the peer has waited
+// longer, nor if the section may be free again before the peer hears that this one is in.
+bool FollowsIn(const PeerView& view, std::span<const PeerView> views, const OwnView& s) {
+  constexpr double kSetsOff_s = 1;  // that the peer may set off before the section is free
+  const bool waits = view.believed && view.standing;
+  if (!waits || view.peer->beacon.order.waited_ticks > s.order.waited_ticks) return false;
+  const double own_s = TimeToCover(view.conflict->own.begin_m, std::max(0.0, s.speed_m_s),
+                                   s.options.cruise_m_s, s.options.profile.acceleration_m_s2);
+  return own_s + kOneLaneHeard_s + kSetsOff_s < SecondsOccupied(*view.conflict, views, s);
+}
+
 // Whether this vehicle holds for the peer. A hold lasts once it has started: braking shortens the
 // stopping distance, and a hold that ended whenever that is short enough would never stop the
 // vehicle.
-bool Holds(const PeerView& view, const OwnView& s) {
+bool Holds(const PeerView& view, std::span<const PeerView> views, const OwnView& s) {
   const bool held = view.peer->encounter.holds;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   if (view.lost) {
@@ -187,6 +200,7 @@ bool Holds(const PeerView& view, const OwnView& s) {
     return !IsGoneInTime(view, s) && (held || MustBrakeNow(view, s));
   }
   if (view.has_priority) {
+    if (IsOutside(view) && FollowsIn(view, views, s)) return false;
     if (cooperative && (IsGoneInTime(view, s) || MayCrossBefore(view, s))) return false;
     return !MustClear(view, s) && (held || SecondMustStop(view, s));
   }
@@ -243,7 +257,7 @@ Encounters UpdateEncounters(std::span<const PeerView> views, const OwnView& s) {
     const bool met = encounter.active;
     BeginOrEnd(view, views, s);
     all.let_pass = all.let_pass || (met && !encounter.active && view.has_priority);
-    encounter.holds = encounter.active && Holds(view, s);
+    encounter.holds = encounter.active && Holds(view, views, s);
     all.holds = all.holds || encounter.holds;
     all.meets = all.meets || encounter.active;
   }

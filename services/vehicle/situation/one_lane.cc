@@ -4,6 +4,7 @@
 
 #include "services/types/math/math.h"
 #include "services/vehicle/situation/claim.h"
+#include "services/vehicle/situation/timing.h"
 
 namespace giveway {
 namespace {
@@ -34,6 +35,14 @@ bool LeadsInto(const Stretch& inside, double path_m) {
 
 bool IsForward(const OneLane& lane, Vec2 direction_world) {
   return Dot(lane.to_world - lane.from_world, direction_world) > 0;
+}
+
+MovingDisc DiscOf(const CarriedPeer& view) {
+  const Beacon& beacon = view.peer->beacon;
+  const double path_m = Norm(view.path_world);
+  const Vec2 direction_world =
+      path_m > kAtTarget_m ? (1 / path_m) * view.path_world : view.forward_world;
+  return {{view.position_world, direction_world}, path_m, beacon.body_radius_m, beacon.covariance};
 }
 
 void KeepNearest(const LaneAhead& found, LanesAhead* nearest) {
@@ -74,22 +83,34 @@ LanesAhead FindLanesAhead(const OwnPose& pose, const OwnCourse& course,
 
 std::optional<Conflict> FindOneLaneConflict(const CarriedPeer& view, const OwnView& s) {
   if (s.lanes.count == 0) return std::nullopt;
-  const Beacon& beacon = view.peer->beacon;
-  const double path_m = Norm(view.path_world);
-  const Vec2 direction_world =
-      path_m > kAtTarget_m ? (1 / path_m) * view.path_world : view.forward_world;
-  const MovingDisc peer = {
-      {view.position_world, direction_world}, path_m, beacon.body_radius_m, beacon.covariance};
+  const MovingDisc peer = DiscOf(view);
   std::optional<Conflict> nearest;
   for (const LaneAhead& ahead : s.lanes.All()) {
-    if (IsForward(*ahead.lane, direction_world) == ahead.forward) continue;
+    if (IsForward(*ahead.lane, peer.path.direction_world) == ahead.forward) continue;
     if (nearest && nearest->own.begin_m <= ahead.own.begin_m) continue;
     const Stretch inside = Inside(*ahead.lane, peer);
-    if (LeadsInto(inside, path_m)) {
+    if (LeadsInto(inside, peer.path_m)) {
       nearest = Conflict{.own = ahead.own, .peer = inside, .one_lane = true};
     }
   }
   return nearest;
+}
+
+double SecondsOccupied(const Conflict& conflict, std::span<const PeerView> peers,
+                       const OwnView& s) {
+  double occupied_s = 0;
+  for (const LaneAhead& ahead : s.lanes.All()) {
+    if (ahead.own.begin_m != conflict.own.begin_m) continue;
+    for (const PeerView& view : peers) {
+      const MovingDisc peer = DiscOf(view);
+      if (!view.fresh || IsForward(*ahead.lane, peer.path.direction_world) != ahead.forward)
+        continue;
+      const Stretch inside = Inside(*ahead.lane, peer);
+      if (IsEmpty(inside) || inside.begin_m > 0 || inside.end_m <= 0) continue;
+      occupied_s = std::max(occupied_s, inside.end_m / FastestOf(view));
+    }
+  }
+  return occupied_s;
 }
 
 // What it drove moves its path by no more than that, and neither does a direction that says little.

@@ -23,6 +23,10 @@ LanesAhead FindLanesAhead(const OwnPose& pose, const OwnCourse& course,
 // path leads into; that in the nearest section.
 std::optional<Conflict> FindOneLaneConflict(const CarriedPeer& view, const OwnView& s);
 
+// How long at least the section of that conflict will be occupied by one that drives through it in
+// the own direction, s; 0 where none is in.
+double SecondsOccupied(const Conflict& conflict, std::span<const PeerView> peers, const OwnView& s);
+
 // False if there is no such conflict with the sender, who drove up to moved_m since its beacon.
 bool MayMeetInOneLane(const Beacon& beacon, double moved_m, const OwnView& s);
 

@@ -32,11 +32,6 @@ Conflict InTurn(const Conflict& conflict, Vec2 own_path, Vec2 peer_path) {
   return Shrunk(conflict, own_path, peer_path);
 }
 
-// How fast the peer may drive soon.
-double FastestOf(const RelatedPeer& view) {
-  return kPeerSpeedSlack * std::max(view.peer->beacon.cruise_m_s, view.speed_m_s);
-}
-
 // Who is in a one-lane section is waited for by all that come towards it, whatever the order: it is
 // enough to be in before the peer, hearing of that, could not stop outside any more.
 bool IsInFirst(const RelatedPeer& view, const OwnView& s) {
@@ -53,6 +48,10 @@ bool IsInFirst(const RelatedPeer& view, const OwnView& s) {
 }
 
 }  // namespace
+
+double FastestOf(const CarriedPeer& view) {
+  return kPeerSpeedSlack * std::max(view.peer->beacon.cruise_m_s, view.speed_m_s);
+}
 
 bool IsThroughFirst(const RelatedPeer& view, const OwnView& s) {
   if (!view.conflict || MutantActive(Mutant::kThroughFirstGuessed)) return true;

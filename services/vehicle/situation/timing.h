@@ -6,6 +6,9 @@
 
 namespace giveway {
 
+// How fast the peer may drive soon: a tenth above its cruise speed, for slip and rounding.
+double FastestOf(const CarriedPeer& view);
+
 // True if, by every path of the peer at up to a tenth above its cruise speed, this vehicle leaves
 // the conflict before the peer can reach it.
 bool IsThroughFirst(const RelatedPeer& view, const OwnView& s);

@@ -181,6 +181,24 @@ TEST(OneLane, IsNotEnteredBecauseTheCrossingBeforeItIs) {
   EXPECT_GT(place_m, 1.2);
 }
 
+// Each change of direction takes the time of a passage.
+TEST(OneLane, IsEnteredBehindOneOfTheOwnDirectionWhileThoseOfTheOtherWait) {
+  const auto drives_up_to = [](double ahead_m, std::uint32_t waited_ticks) {
+    Beacon ahead = Rolls(PeerAt(ahead_m, kCruise_m_s));
+    ahead.vehicle = VehicleId{3};
+    ahead.boot_epoch = 103;
+    ahead.order.vehicle = VehicleId{3};
+    ahead.world_from_body.heading_rad = 0;
+    ahead.toward_world = {20, 0};
+    Beacon waits = PeerAt(10, kFaster_m_s, Rule::kNotGranted);
+    waits.order.waited_ticks = waited_ticks;
+    return PlaceOf(Drive([&](double) { return std::vector{ahead, waits}; }));
+  };
+  EXPECT_GT(drives_up_to(5, 0), 3);
+  EXPECT_LT(drives_up_to(5, 40), kOutside_m);   // it has waited longer
+  EXPECT_LT(drives_up_to(9.5, 0), kOutside_m);  // the one ahead is out too soon
+}
+
 TEST(OneLane, IsKnownToCooperativeVehiclesAlone) {
   OwnCourse course{.path = {{0, 0}, {1, 0}}, .distance_to_goal_m = 10};
   VehicleOptions options = Options();
