@@ -134,7 +134,7 @@ TEST(Admin, SeveralOperatorsWhoAskAtOnceEachGetTheAnswerToTheirOrder) {
   answer(1);
   ASSERT_TRUE(has_come(1));
   // Each operator receives the answers to all, even if several come between two calls of Take.
-  for (const std::uint64_t order : {2, 3, 4, 5}) answer(order);
+  for (const std::uint64_t order : {2U, 3U, 4U, 5U}) answer(order);
   EXPECT_TRUE(has_come(5));
   EXPECT_THAT(got, ::testing::ElementsAre(1, 2, 3, 4, 5));
 }

@@ -35,7 +35,7 @@ TEST(Departures, OfThreeVehiclesKilledAtOnceAreEachNamed) {
     return monitor.Heard().size() == 5;
   }));
   monitor.Forget();
-  for (const std::size_t i : {1, 2, 4}) fleet[i]->Kill();
+  for (const std::size_t i : {1U, 2U, 4U}) fleet[i]->Kill();
   const std::vector<VehicleId> killed{VehicleId{2}, VehicleId{3}, VehicleId{5}};
   const auto times_told = [&](QosEventKind kind, VehicleId id) {
     const std::vector<VehicleId> events = monitor.EventsOf(kind);
