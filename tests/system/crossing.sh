@@ -28,6 +28,7 @@ case $scenario in
   head_on) expected='.halted == [2] and .arrived == [1, 2]' ;;
   three_way) expected='.halted == [2, 3] and .arrived == [1, 2, 3]' ;;
   four_way) expected='(.halted | length > 0) and .arrived == [1, 2, 3, 4]' ;;
+  narrow_door) expected='(.halted | length > 0) and .arrived == [1, 2, 3, 4]' ;;
   deaf) expected='(.halted | length > 0) and .arrived == [1, 2]' ;;
   parked_nose_to_nose) expected='.arrived == [1, 2]' ;;
   convoy) expected='.halted == [] and .arrived == [1, 2, 3, 4]' ;;
