@@ -35,8 +35,9 @@ class Sober {
   bool holds_ = true;
 };
 
-bool HasNoLength(const OneLane& lane) {
-  return !(Norm(lane.to_world - lane.from_world) >= kLeastLength_m);
+bool IsNoSection(const OneLane& lane) {
+  return !(Norm(lane.to_world - lane.from_world) >= kLeastLength_m) ||
+         !(lane.width_m >= kLeastLength_m);
 }
 
 }  // namespace
@@ -54,8 +55,8 @@ std::string WhyUnusable(const VehicleOptions& options) {
   if (options.tick_period < std::chrono::milliseconds(1)) return "options have no tick";
   if (options.route.count > kMaxWaypoints) return "options have too long a route";
   if (options.one_lanes.size() > kMaxOneLanes) return "options have too many one-lane sections";
-  if (std::ranges::any_of(options.one_lanes, HasNoLength)) {
-    return "options have a one-lane section without a length";
+  if (std::ranges::any_of(options.one_lanes, IsNoSection)) {
+    return "options have a one-lane section without a length or a width";
   }
   if (std::ranges::any_of(lengths, [](double x) { return x < kLeastLength_m; }) ||
       !(options.cruise_m_s > 0) || options.cruise_m_s > kMaxSpeed_m_s) {

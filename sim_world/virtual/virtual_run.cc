@@ -66,6 +66,15 @@ void Conclude(const VirtualFleet& fleet, const Invariants& invariants, VirtualOu
   outcome->hash = hash.Value();
 }
 
+// How long it takes through the longest of its one-lane sections.
+double LongestPassageSeconds(const VehicleOptions& options) {
+  double longest_m = 0;
+  for (const OneLane& lane : options.one_lanes) {
+    longest_m = std::max(longest_m, Norm(lane.to_world - lane.from_world));
+  }
+  return longest_m / options.cruise_m_s;
+}
+
 }  // namespace
 
 void ObserveFleet(const VirtualFleet& fleet, std::vector<Observed>* observed) {
@@ -93,19 +102,6 @@ void ObserveFleet(const VirtualFleet& fleet, std::vector<Observed>* observed) {
     now.stops = said.command.target == WheelSpeeds{};
   }
 }
-
-namespace {
-
-// How long it takes through the longest of its one-lane sections.
-double LongestPassageSeconds(const VehicleOptions& options) {
-  double longest_m = 0;
-  for (const OneLane& lane : options.one_lanes) {
-    longest_m = std::max(longest_m, Norm(lane.to_world - lane.from_world));
-  }
-  return longest_m / options.cruise_m_s;
-}
-
-}  // namespace
 
 InvariantLimits LimitsFor(const Scenario& scenario, std::uint32_t late_ticks, bool loses) {
   InvariantLimits limits;

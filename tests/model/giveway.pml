@@ -32,9 +32,10 @@
  *
  * Switches: N vehicles; AGE ticks a beacon is trusted; CRASHES, RESTARTS in all; ONCE: no vehicle
  * comes again; EVEN: one speed; STALL: a rolling vehicle may be slow; ONE_STEP: through the zone in
- * one tick; ONE_LANE: the zone is a one-lane section, driven through from both ends; NO_CLAIMS, NO_AGREEMENT: one of the two lines of defence is missing; ONLY_EXCLUSION: the
- * other safety properties are not checked; WEATHER: losses end eventually, and WHO must pass; the
- * injected defects. runs.txt says which are tried together, and what SPIN must find.
+ * one tick; ONE_LANE: the zone is a one-lane section, driven through from both ends; NO_CLAIMS,
+ * NO_AGREEMENT: one of the two lines of defence is missing; ONLY_EXCLUSION: the other safety
+ * properties are not checked; WEATHER: losses end eventually, and WHO must pass; the injected
+ * defects. runs.txt says which are tried together, and what SPIN must find.
  */
 #ifndef N
 #define N 2

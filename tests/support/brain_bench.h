@@ -42,6 +42,12 @@ inline void SetEcho(RangeScan* scan, int sensor, double range_m) {
   scan->readings[static_cast<std::size_t>(sensor)] = {Echo::kEcho, range_m, scan->tick};
 }
 
+// The wheels of a Pioneer that drives straight on.
+inline WheelSpeeds Rolling(double speed_m_s) {
+  const double wheel_m = PioneerP3dx().drive.wheel_radius_m;
+  return {speed_m_s / wheel_m, speed_m_s / wheel_m};
+}
+
 // A believable beacon of vehicle `id` standing at `pose`, answering `tick`.
 inline Beacon BeaconOf(std::uint32_t id, std::uint32_t tick, const Pose& pose,
                        double cruise_m_s = 0.3) {

@@ -2,6 +2,7 @@
 // half-line it would sweep by going straight on.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "services/types/math/vec2.h"
@@ -35,6 +36,7 @@ struct Conflict {
   Stretch peer;
   bool across = false;    // at more than 30 degrees, not along each other or against
   bool one_lane = false;  // from end to end of a one-lane section: one_lane.h
+  std::uint8_t lane = 0;  // which of those ahead (OwnCourse::lanes), where it is one
 };
 
 // Empty if the paths never come within `reach_m`, or either vehicle has its stretch behind it.

@@ -17,6 +17,8 @@ constexpr std::uint32_t kMotionStreak = 4;
 constexpr std::uint32_t kSlowMotionStreak = 2;
 // Standard deviations of a closing speed that the readings' noise may leave unexplained.
 constexpr double kNoiseSigmas = 4;
+// A cone with a direction nearer to the heading than 60 degrees looks ahead.
+constexpr double kLooksAhead = 0.5;
 
 // How far a direction is off a cone's axis.
 double OffAxis(Vec2 direction_body, const Cone& cone) {
@@ -200,6 +202,22 @@ std::optional<double> FreeAlongFace(std::size_t sensor, double turns_rad, const 
   return std::max(0.0, apart_m) / std::min(1.0, slant);
 }
 
+namespace {
+
+// Exact ultrasonics hear the front of a building that the vehicle passes the end of, at the rim of
+// a cone that looks to the side: the range shrinks so that along the path what is heard there stays
+// where it is. Imperfect ones hear no face so far off its normal.
+bool IsFrontAtRim(double along_m_s, double driving_m_s, double cosine,
+                  const VehicleOptions& options) {
+  constexpr double kLeast =
+      0.6;  // share of the own speed, at a front that is not square to the path
+  constexpr double kMost = 1.6;
+  if (HasImperfectSonar(options) || cosine <= 0 || cosine > kLooksAhead) return false;
+  return along_m_s > kLeast * driving_m_s && along_m_s < kMost * driving_m_s;
+}
+
+}  // namespace
+
 bool MovesByItself(std::size_t sensor, const OwnView& s) {
   const SensorView& view = s.ranges[sensor];
   const bool slow = s.options.sonar_refresh.count() > 0;
@@ -211,13 +229,16 @@ bool MovesByItself(std::size_t sensor, const OwnView& s) {
   const double driving = std::max(s.speed_m_s, view.own.forward_m_s);
   const double turning = std::max(Magnitude(s.turn_rad_s), view.own.turn_rad_s);
   const double by_noise = kNoiseSigmas * s.options.sonar_noise * view.range_m / kClosingTime_s;
-  // The edge of a cone runs along a wall ahead faster than the vehicle drives: one that looks to
-  // the side nearly four times as fast, where it passes the end of a building.
+  // The edge of a cone that looks ahead runs along a wall ahead faster than the vehicle drives; one
+  // that looks to the side meets what it passes.
   const double cosine = s.cones.of[sensor].nearest_cosine;
-  const double faster = cosine > 0 ? 1 / cosine : 0;
-  const double by_driving = std::max(0.0, driving) * faster;
+  const double faster = cosine > kLooksAhead ? 1 / cosine : cosine;
+  const double by_driving = std::max(0.0, driving * faster);
   const double by_turning = turning * (profile.body_radius_m + 0.3 * view.range_m);
-  return view.closing_m_s > by_driving + by_turning + by_noise + kOwnMotion_m_s;
+  const double unexplained_m_s =
+      view.closing_m_s - by_driving - by_turning - by_noise - kOwnMotion_m_s;
+  return unexplained_m_s > 0 &&
+         !IsFrontAtRim(view.closing_m_s * cosine, driving, cosine, s.options);
 }
 
 }  // namespace giveway

@@ -179,8 +179,7 @@ bool FollowsIn(const PeerView& view, std::span<const PeerView> views, const OwnV
   constexpr double kSetsOff_s = 1;  // that the peer may set off before the section is free
   const bool waits = view.believed && view.standing;
   if (!waits || view.peer->beacon.order.waited_ticks > s.order.waited_ticks) return false;
-  const double own_s = TimeToCover(view.conflict->own.begin_m, std::max(0.0, s.speed_m_s),
-                                   s.options.cruise_m_s, s.options.profile.acceleration_m_s2);
+  const double own_s = SecondsTo(view.conflict->own.begin_m, s);
   return own_s + kOneLaneHeard_s + kSetsOff_s < SecondsOccupied(*view.conflict, views, s);
 }
 

@@ -29,6 +29,7 @@ Stretch Inside(const OneLane& lane, const MovingDisc& disc) {
                             reach_m);
 }
 
+// True if a path of that length has its end, or any point before, in the section.
 bool LeadsInto(const Stretch& inside, double path_m) {
   return !IsEmpty(inside) && inside.end_m > 0 && inside.begin_m <= path_m;
 }
@@ -85,12 +86,13 @@ std::optional<Conflict> FindOneLaneConflict(const CarriedPeer& view, const OwnVi
   if (s.lanes.count == 0) return std::nullopt;
   const MovingDisc peer = DiscOf(view);
   std::optional<Conflict> nearest;
-  for (const LaneAhead& ahead : s.lanes.All()) {
+  for (std::uint8_t i = 0; i < s.lanes.count; ++i) {
+    const LaneAhead& ahead = s.lanes.of[i];
     if (IsForward(*ahead.lane, peer.path.direction_world) == ahead.forward) continue;
     if (nearest && nearest->own.begin_m <= ahead.own.begin_m) continue;
     const Stretch inside = Inside(*ahead.lane, peer);
     if (LeadsInto(inside, peer.path_m)) {
-      nearest = Conflict{.own = ahead.own, .peer = inside, .one_lane = true};
+      nearest = Conflict{.own = ahead.own, .peer = inside, .one_lane = true, .lane = i};
     }
   }
   return nearest;
@@ -98,17 +100,14 @@ std::optional<Conflict> FindOneLaneConflict(const CarriedPeer& view, const OwnVi
 
 double SecondsOccupied(const Conflict& conflict, std::span<const PeerView> peers,
                        const OwnView& s) {
+  const LaneAhead& ahead = s.lanes.of[conflict.lane];
   double occupied_s = 0;
-  for (const LaneAhead& ahead : s.lanes.All()) {
-    if (ahead.own.begin_m != conflict.own.begin_m) continue;
-    for (const PeerView& view : peers) {
-      const MovingDisc peer = DiscOf(view);
-      if (!view.fresh || IsForward(*ahead.lane, peer.path.direction_world) != ahead.forward)
-        continue;
-      const Stretch inside = Inside(*ahead.lane, peer);
-      if (IsEmpty(inside) || inside.begin_m > 0 || inside.end_m <= 0) continue;
-      occupied_s = std::max(occupied_s, inside.end_m / FastestOf(view));
-    }
+  for (const PeerView& view : peers) {
+    const MovingDisc peer = DiscOf(view);
+    if (!view.fresh || IsForward(*ahead.lane, peer.path.direction_world) != ahead.forward) continue;
+    const Stretch inside = Inside(*ahead.lane, peer);
+    if (!LeadsInto(inside, 0)) continue;
+    occupied_s = std::max(occupied_s, inside.end_m / FastestOf(view));
   }
   return occupied_s;
 }

@@ -39,8 +39,7 @@ bool IsInFirst(const RelatedPeer& view, const OwnView& s) {
   if (fastest_m_s <= 0) return true;
   const Conflict& conflict = *view.conflict;
   const Beacon& beacon = view.peer->beacon;
-  const double own_s = TimeToCover(conflict.own.begin_m, std::max(0.0, s.speed_m_s),
-                                   s.options.cruise_m_s, s.options.profile.acceleration_m_s2);
+  const double own_s = SecondsTo(conflict.own.begin_m, s);
   const double stops_m = StoppingDistance(fastest_m_s, s.reaction_s, beacon.deceleration_m_s2);
   const double peer_s = TimeToCover(conflict.peer.begin_m - stops_m, std::max(0.0, view.speed_m_s),
                                     fastest_m_s, beacon.acceleration_m_s2);
@@ -48,6 +47,11 @@ bool IsInFirst(const RelatedPeer& view, const OwnView& s) {
 }
 
 }  // namespace
+
+double SecondsTo(double distance_m, const OwnView& s) {
+  return TimeToCover(distance_m, std::max(0.0, s.speed_m_s), s.options.cruise_m_s,
+                     s.options.profile.acceleration_m_s2);
+}
 
 double FastestOf(const CarriedPeer& view) {
   return kPeerSpeedSlack * std::max(view.peer->beacon.cruise_m_s, view.speed_m_s);
@@ -59,8 +63,7 @@ bool IsThroughFirst(const RelatedPeer& view, const OwnView& s) {
   const Beacon& beacon = view.peer->beacon;
   const Conflict conflict =
       InTurn(*view.conflict, s.path.direction_world, view.path_direction_world);
-  const double own_s = TimeToCover(conflict.own.end_m, std::max(0.0, s.speed_m_s),
-                                   s.options.cruise_m_s, s.options.profile.acceleration_m_s2);
+  const double own_s = SecondsTo(conflict.own.end_m, s);
   const double fastest = FastestOf(view);
   if (fastest <= 0) return true;
   const double peer_s = TimeToCover(conflict.peer.begin_m, std::max(0.0, view.speed_m_s), fastest,
@@ -74,8 +77,7 @@ bool IsGoneInTime(const RelatedPeer& view, const OwnView& s) {
       Shrunk(*view.conflict, s.path.direction_world, view.path_direction_world);
   if (conflict.peer.end_m <= 0) return true;
   if (conflict.own.begin_m <= 0) return false;
-  const double own_s = TimeToCover(conflict.own.begin_m, std::max(0.0, s.speed_m_s),
-                                   s.options.cruise_m_s, s.options.profile.acceleration_m_s2);
+  const double own_s = SecondsTo(conflict.own.begin_m, s);
   return conflict.peer.end_m / view.speed_m_s + kGoneMargin_s < own_s;
 }
 

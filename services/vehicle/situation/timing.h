@@ -6,6 +6,9 @@
 
 namespace giveway {
 
+// How long this vehicle takes to drive so far, s; 0 for what lies behind.
+double SecondsTo(double distance_m, const OwnView& s);
+
 // How fast the peer may drive soon: a tenth above its cruise speed, for slip and rounding.
 double FastestOf(const CarriedPeer& view);
 

@@ -134,15 +134,15 @@ TEST(BrakingRules, EveryGeneratedFleetComesOut) {
 }
 
 // At 0.3 m/s with 0.6 m/s^2: 0.08 m to brake, 0.18 m in the 600 ms until it does, both with the 2 %
-// of a seed; 2 m of place, 1 m of width, two bodies and margins of 0.35 m each.
-TEST(BrakingRules, OneThatWaitsOutsideAOneLanePlaceHearsOneThatIsIn) {
-  const auto with_place = [](const std::string& radio) {
+// of a seed; 2 m of section, 1 m of width, two bodies and margins of 0.35 m each.
+TEST(BrakingRules, OneThatWaitsOutsideAOneLaneSectionHearsOneThatIsIn) {
+  const auto with_section = [](const std::string& radio) {
     return ProblemsOf(HeadOn(0.3, 0.3,
                              radio + " one_lane { from { x_m: -1 y_m: 3 } "
                                      "to { x_m: 1 y_m: 3 } width_m: 1 }"));
   };
-  EXPECT_THAT(with_place("emission_radius_m: 3.97"), IsEmpty());
-  const std::vector<Problem> problems = with_place("emission_radius_m: 3.95");
+  EXPECT_THAT(with_section("emission_radius_m: 3.97"), IsEmpty());
+  const std::vector<Problem> problems = with_section("emission_radius_m: 3.95");
   ASSERT_THAT(problems, testing::SizeIs(1));
   EXPECT_EQ(problems[0].field, "one_lane[0].to");
   EXPECT_THAT(problems[0].message, HasSubstr("it is 2.00 m long"));

@@ -66,7 +66,7 @@ TEST(PlaceRules, WallsLeavesAndStopLinesHaveALength) {
               ElementsAre(Is(17, "signal[0].line.to", "the stop line has no length")));
 }
 
-TEST(PlaceRules, AOneLanePlaceHasTwoEndsAndAWidth) {
+TEST(PlaceRules, AOneLaneSectionHasTwoEndsAndAWidth) {
   EXPECT_THAT(With("one_lane { from { x_m: 8 y_m: 1 } to { x_m: 8 y_m: 1 } width_m: 0.01 }"),
               ElementsAre(Is(17, "one_lane[0].to", "the one-lane section has no length"),
                           Is(17, "one_lane[0].width_m", "between 0.1 and 100 m")));
@@ -75,7 +75,7 @@ TEST(PlaceRules, AOneLanePlaceHasTwoEndsAndAWidth) {
                           Is(17, "one_lane[0].to", "missing")));
 }
 
-TEST(PlaceRules, ThereAreAtMostSixtyFourOneLanePlaces) {
+TEST(PlaceRules, ThereAreAtMostSixtyFourOneLaneSections) {
   std::string text;
   for (int i = 0; i < 65; ++i) {
     text += "one_lane { from { x_m: 0 y_m: 0 } to { x_m: 1 y_m: 0 } width_m: 1 } ";

@@ -133,7 +133,7 @@ TEST(Place, ADoorKnowsItsJambsAndTimes) {
   EXPECT_EQ(scenario.doors[1].move_s, Door{}.move_s);
 }
 
-TEST(Place, AOneLanePlaceIsKnownToEveryVehicle) {
+TEST(Place, AOneLaneSectionIsKnownToEveryVehicle) {
   const Scenario scenario = Load(kGoodScenario +
                                  "emission_radius_m: 20 one_lane { from { x_m: 1 y_m: 2 } "
                                  "to { x_m: 3 y_m: 4 } width_m: 0.9 }");

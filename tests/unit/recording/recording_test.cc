@@ -250,7 +250,8 @@ TEST(RecordingOptions, OnlyAVehicleThatCouldDriveIsUsable) {
   EXPECT_TRUE(refused([](VehicleOptions* o) {
     o->profile.sonar[7].bearing_rad = std::numeric_limits<double>::quiet_NaN();
   }));
-  EXPECT_TRUE(refused([](VehicleOptions* o) { o->one_lanes.resize(1); }));
+  EXPECT_TRUE(refused([](VehicleOptions* o) { o->one_lanes = {{{0, 0}, {0, 0}, 1}}; }));
+  EXPECT_TRUE(refused([](VehicleOptions* o) { o->one_lanes = {{{0, 0}, {1, 0}, -1}}; }));
   EXPECT_TRUE(refused([](VehicleOptions* o) {
     o->one_lanes.assign(kMaxOneLanes + 1, {{0, 0}, {1, 0}, 1});
   }));

@@ -16,13 +16,12 @@ namespace {
 using test::BeaconOf;
 using test::BrainBench;
 using test::ClearScan;
+using test::Rolling;
 
 constexpr double kCruise_m_s = 0.3;
 constexpr VehicleId kPeer{2};
 constexpr VehicleId kLeader{3};
 constexpr VehicleId kThird{9};
-
-WheelSpeeds Rolling(double speed_m_s) { return {speed_m_s / 0.0975, speed_m_s / 0.0975}; }
 
 // Comes from the south and stands before the own path.
 Beacon PeerAt(std::uint32_t tick, double cruise_m_s) {

@@ -17,6 +17,7 @@ namespace {
 using test::BeaconOf;
 using test::BrainBench;
 using test::ClearScan;
+using test::Rolling;
 
 constexpr double kCruise_m_s = 0.3;
 constexpr double kSlower_m_s = 0.2;  // comes later in the order
@@ -24,8 +25,6 @@ constexpr double kFaster_m_s = 0.4;  // comes first
 const OneLane kSection = {.from_world = {3, 0}, .to_world = {9, 0}, .width_m = 1};
 // Half of the width, the body and the margin before the end.
 constexpr double kOutside_m = 3 - (0.5 + 0.25 + kOneLaneMargin_m);
-
-WheelSpeeds Rolling(double speed_m_s) { return {speed_m_s / 0.0975, speed_m_s / 0.0975}; }
 
 VehicleOptions Options() {
   VehicleOptions options = test::OptionsWithoutUltrasonics();

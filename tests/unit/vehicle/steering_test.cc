@@ -247,7 +247,7 @@ TEST(Steering, BesideAWallItDoesNotTurnToAndFroForEver) {
     beside.rule = Rule::kObstacle;
     out = bench.Step(scan, tick == 0 ? std::vector<Beacon>{} : std::vector{beside});
   }
-  EXPECT_LT(out.beacon.world_from_body.position_world.x, -0.5);
+  EXPECT_LT(out.beacon.world_from_body.position_world.x, -0.9);
 }
 
 // Echoes all round, and a peer that stands at the vehicle's side, not in its path: there is no

@@ -176,7 +176,6 @@ TEST(Vehicle, ANewWorldEpochForgetsThatItTurned) {
   EXPECT_EQ(out.command.decision.rule, Rule::kUnidentifiedMotion);
 }
 
-// A NaN in the pose would never leave it again.
 // Regression: exact ultrasonics hear the front of a building ahead at the rim of the cone that
 // looks to the side, nearly four times as fast as the vehicle comes nearer; it halted at every
 // doorway.
@@ -186,13 +185,26 @@ TEST(Vehicle, TheFrontOfABuildingMetAtTheRimOfASideConeIsNoMover) {
   BrainBench bench(test::DefaultOptions());
   for (int i = 0; i < 16; ++i) {
     RangeScan scan = ClearScan(0);
-    scan.wheels = {0.3 / 0.0975, 0.3 / 0.0975};
+    scan.wheels = test::Rolling(0.3);
     const double ahead_m = 0.25 - 0.3 * 0.05 * i;  // of the transducer
     test::SetEcho(&scan, 0, ahead_m / rim_cosine);
     EXPECT_NE(bench.Step(scan).command.decision.rule, Rule::kUnidentifiedMotion) << i;
   }
 }
 
+TEST(Vehicle, WhatComesFromTheSideFasterThanThePathExplainsIsAMover) {
+  BrainBench bench(test::DefaultOptions());
+  bool deaf = false;
+  for (int i = 0; i < 16; ++i) {
+    RangeScan scan = ClearScan(0);
+    scan.wheels = test::Rolling(0.3);
+    test::SetEcho(&scan, 0, 0.95 - 0.6 * 0.05 * i);
+    deaf = deaf || bench.Step(scan).command.decision.rule == Rule::kUnidentifiedMotion;
+  }
+  EXPECT_TRUE(deaf);
+}
+
+// A NaN in the pose would never leave it again.
 TEST(Vehicle, AScanThatCannotBeItsOwnIsRefusedAndCounted) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const auto refused = [](auto spoil) {
@@ -240,7 +252,7 @@ TEST(Vehicle, RolledOutOfItsGoalItHasNotArrived) {
   Outputs out;
   for (int i = 0; i < 30; ++i) {
     RangeScan scan = ClearScan(0);
-    scan.wheels = {0.3 / 0.0975, 0.3 / 0.0975};
+    scan.wheels = test::Rolling(0.3);
     out = bench.Step(scan);
     arrived = arrived || out.command.decision.rule == Rule::kArrived;
   }
