@@ -147,7 +147,9 @@ void EndpointRules::CheckPaths() {
         "Of two vehicles with one id the reader hears only one, and the doubled id stays unseen.",
         "SHARED; the peer table names doubled ids");
   }
-  if (profile_.owner == Owner::kWriter && Number(Policy::kPublishMode) == kAsynchronous) {
+  // Where nothing is due, nothing is decided by the age of a sample.
+  if (profile_.owner == Owner::kWriter && Number(Policy::kPublishMode) == kAsynchronous &&
+      Number(Policy::kDeadline) != kInfinite) {
     Add(Severity::kWarning, "asynchronous_writer", Policy::kPublishMode,
         Named(Policy::kPublishMode),
         "Another thread sends each sample later, and its age at the reader grows by that.",

@@ -1,6 +1,7 @@
-// Writes the state of a process from a thread of its own: the loop that hands it over never waits
-// for a disk, which may stall for seconds. Of states that come while one is being written only the
-// newest is kept. What is written, and where, is up to the function it is given.
+// Writes the state of a process from a thread of its own: the loop that hands it over waits neither
+// for a disk, which may stall for seconds, nor until a long state is put into words. Of states that
+// come while one is being written only the newest is kept. What is written, how and where, is up to
+// the function it is given.
 #pragma once
 
 #include <algorithm>
@@ -19,10 +20,11 @@
 
 namespace giveway {
 
+template <typename State = std::string>
 class StateWriter {
  public:
-  // Writes the bytes. Empty if they are written, else why not. On the thread of the writer.
-  using WriteState = std::function<std::string(const std::string& bytes)>;
+  // Writes the state. Empty if it is written, else why not. On the thread of the writer.
+  using WriteState = std::function<std::string(const State& state)>;
 
   explicit StateWriter(WriteState write) : write_(std::move(write)) {
     const SignalsBlocked blocked;
@@ -34,11 +36,11 @@ class StateWriter {
   StateWriter& operator=(const StateWriter&) = delete;
 
   // Never waits for the disk. Not after Finish.
-  void Write(std::string bytes) {
+  void Write(State state) {
     {
       const std::scoped_lock lock(mutex_);
-      GIVEWAY_CHECK(!closed_, bytes.size());
-      next_ = std::move(bytes);
+      GIVEWAY_CHECK(!closed_, "finished");
+      next_ = std::move(state);
     }
     work_.notify_one();
   }
@@ -51,6 +53,11 @@ class StateWriter {
   Nanoseconds Longest() {
     const std::scoped_lock lock(mutex_);
     return longest_;
+  }
+  // How long the last write took that has ended.
+  Nanoseconds Last() {
+    const std::scoped_lock lock(mutex_);
+    return last_;
   }
   // Waits until the newest state is written: nothing is written afterwards.
   void Finish() {
@@ -68,13 +75,14 @@ class StateWriter {
     for (;;) {
       work_.wait(lock, [this] { return next_ || closed_; });
       if (!next_) return;
-      const std::string bytes = *std::exchange(next_, std::nullopt);
+      const State state = *std::exchange(next_, std::nullopt);
       lock.unlock();
       const SteadyTime begun = SteadyNow();
-      std::string outcome = write_(bytes);
+      std::string outcome = write_(state);
       const Nanoseconds took = SteadyNow() - begun;
       lock.lock();
       outcome_ = std::move(outcome);
+      last_ = took;
       longest_ = std::max(longest_, took);
     }
   }
@@ -82,8 +90,9 @@ class StateWriter {
   const WriteState write_;
   std::mutex mutex_;  // guards all that follows; never held while a state is written
   std::condition_variable work_;
-  std::optional<std::string> next_;
+  std::optional<State> next_;
   std::optional<std::string> outcome_;
+  Nanoseconds last_{0};
   Nanoseconds longest_{0};
   bool closed_ = false;
   std::thread thread_;

@@ -53,7 +53,7 @@ WorldLoop::WorldLoop(const Scenario& scenario, link::WorldLink* link, ServiceAdm
   if (options_.checkpoint_file.empty()) return;
   const std::string complaint = WriteStateFile(options_.checkpoint_file, State());
   if (!complaint.empty()) throw std::runtime_error("--checkpoint " + complaint);
-  checkpoint_writer_ = std::make_unique<StateWriter>(
+  checkpoint_writer_ = std::make_unique<StateWriter<>>(
       [this](const std::string& bytes) { return WriteStateFile(options_.checkpoint_file, bytes); });
 }
 

@@ -116,7 +116,7 @@ class WorldLoop {
   LineBudget answer_lines_{8};  // of admission
   LineBudget event_lines_{16};  // of the run
   std::uint32_t overruns_ = 0;
-  std::unique_ptr<StateWriter> checkpoint_writer_;  // null: none is kept
+  std::unique_ptr<StateWriter<>> checkpoint_writer_;  // null: none is kept
   SteadyTime next_checkpoint_{0};
   FaultReminder checkpoint_fault_;  // a full disk is no news at every tick
 };

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "services/types/time.h"
+
 namespace giveway::fleetctl {
 
 // A fleet takes ten to start.
@@ -25,6 +27,13 @@ inline SoakPhases PhasesOf(double duration_s, std::size_t vehicles) {
   const double warm_up_s = std::min(duration_s / 4, 10 + 0.5 * static_cast<double>(vehicles));
   const double heal_s = std::min(duration_s / 4, 20.0);
   return {warm_up_s, duration_s - heal_s, duration_s};
+}
+
+// Until a soak saves again what it has seen, after a save that took `took`: it holds every fault so
+// far, so that each save is longer than the one before, and all of them together take a hundredth of
+// one core at most.
+inline Nanoseconds UntilNextSave(Nanoseconds took) {
+  return std::max<Nanoseconds>(std::chrono::seconds(10), 100 * took);
 }
 
 }  // namespace giveway::fleetctl

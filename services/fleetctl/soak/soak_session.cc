@@ -18,11 +18,10 @@ using faults::Target;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr Nanoseconds kTurn = milliseconds(20);
+constexpr Nanoseconds kTurn = milliseconds(50);
 constexpr Nanoseconds kUntilAllDrive = seconds(60);
 constexpr Nanoseconds kSampleEvery = seconds(1);
 constexpr Nanoseconds kProgressEvery = seconds(10);
-constexpr Nanoseconds kSaveEvery = seconds(10);
 constexpr Nanoseconds kLeaveGrace = seconds(2);
 constexpr Nanoseconds kTermGrace = seconds(3);
 constexpr std::uint64_t kSharedMemoryEvery = 10;  // samples: it requires reading every map
@@ -158,7 +157,6 @@ void SoakSession::Gather(SoakSeen* seen) const {
 
 void SoakSession::SaveIfDue(SteadyTime now) {
   if (!save_ || !seen_.started || stopping_ || now < next_save_) return;
-  next_save_ = now + kSaveEvery;
   SoakSeen so_far = seen_;
   so_far.lasted_s = watch_.TimeSeconds(now);
   Gather(&so_far);
@@ -166,7 +164,7 @@ void SoakSession::SaveIfDue(SteadyTime now) {
   for (const std::size_t i : watch_.Open()) {
     so_far.courses[i] = {.effect = watch_.Courses()[i].effect};
   }
-  save_(so_far);
+  next_save_ = now + save_(std::move(so_far));
 }
 
 bool SoakSession::WaitUntilAllDrive() {

@@ -40,10 +40,11 @@ class SoakSession {
   SoakSession(const FleetSpec& spec, const Scenario& scenario, const faults::Schedule& schedule,
               const SoakPhases& phases, FaultTools tools);
 
-  // The observations so far, without the slopes of current lives, which take time.
-  using Saved = std::function<void(const SoakSeen& so_far)>;
+  // The observations so far, without the slopes of current lives, which take time. Returns how long
+  // until it is called again.
+  using Saved = std::function<Nanoseconds(SoakSeen so_far)>;
 
-  // Returns when the last process is gone. Calls `save` every ten seconds.
+  // Returns when the last process is gone.
   SoakSeen Run(const Saved& save = {});
 
   // The longest pause of the machine in a time span of the run.
@@ -83,7 +84,7 @@ class SoakSession {
   ResourceSeries resources_;
   FleetCourse course_;
   PauseMeter pauses_;
-  StallMonitor stalls_{std::chrono::milliseconds(5)};  // limits of detection are 100 ms and more
+  StallMonitor stalls_{std::chrono::milliseconds(20)};  // limits of detection are 100 ms and more
   NearMisses near_;
   FleetTiming timing_;
   FleetAccounting accounting_;

@@ -36,7 +36,7 @@ class StalledDisk {
 
 struct Stalled {
   StalledDisk disk;
-  StateWriter writer{[this](const std::string& bytes) { return disk.Write(bytes); }};
+  StateWriter<> writer{[this](const std::string& bytes) { return disk.Write(bytes); }};
 };
 
 TEST(StateWriter, HandingOverAStateDoesNotWaitForADiskThatStalls) {

@@ -345,13 +345,16 @@ int SoakProcesses(const SoakOptions& options, const Prepared& prepared, const So
                  &result);
     return whole == nullptr ? result : Joined(*whole, result);
   };
-  // A disk that stalls would be a pause of the supervisor, which is taken for one of the machine.
-  StateWriter saver(
-      [&options](const std::string& so_far) { return SaveSoFar(so_far, options.report_folder); });
-  const SoakSeen seen = session.Run([&](const SoakSeen& so_far) {
+  // A disk that stalls, or hours to write down, would be a pause of the supervisor, which is taken
+  // for one of the machine.
+  StateWriter<SoakSeen> saver([&](const SoakSeen& so_far) {
+    return SaveSoFar(ToJson(judged(so_far)), options.report_folder);
+  });
+  const SoakSeen seen = session.Run([&saver](SoakSeen so_far) {
     const std::string why = saver.TakeOutcome().value_or("");
     if (!why.empty()) std::fprintf(stderr, "what was seen so far is not saved: %s\n", why.c_str());
-    saver.Write(ToJson(judged(so_far)));
+    saver.Write(std::move(so_far));
+    return UntilNextSave(saver.Last());
   });
   saver.Finish();
   return Conclude(options, judged(seen));

@@ -30,8 +30,9 @@ broken promise of a report, for `fleetctl shrink`.
 
 --virtual runs the same list in virtual time, as far as it goes there, and
 judges it alike, without detection, resources and pauses. What was seen is saved
-every ten seconds: --resume FOLDER continues after a crash of the machine, with a
-new fleet and the rest of the list, and the verdict says so.
+every ten seconds, more rarely as it grows: --resume FOLDER continues after a
+crash of the machine, with a new fleet and the rest of the list, and the verdict
+says so.
 
 Faults of an intruder (spoofed, replayed, flooded, malformed) are carried out by
 the program that is built with the tests: --attacker build/release/bin/attacker.

@@ -7,6 +7,7 @@
 
 #include "services/config/problem.h"
 #include "services/fleetctl/soak/soak_json.h"
+#include "services/fleetctl/soak/soak_phases.h"
 #include "tests/unit/config/scenario_files.h"
 #include "tests/unit/fleetctl/soak/soak_results.h"
 
@@ -23,6 +24,11 @@ faults::Fault Beginning(const char* rule, double at_s) {
   fault.rule = rule;
   fault.at_s = at_s;
   return fault;
+}
+
+TEST(SoakResume, SavingTakesAHundredthOfTheTimeAtMost) {
+  EXPECT_EQ(UntilNextSave(std::chrono::milliseconds(5)), std::chrono::seconds(10));
+  EXPECT_EQ(UntilNextSave(std::chrono::milliseconds(300)), std::chrono::seconds(30));
 }
 
 TEST(SoakResume, TheRestOfAListIsByTheNewFleetsClock) {
