@@ -30,8 +30,8 @@ inline SoakPhases PhasesOf(double duration_s, std::size_t vehicles) {
 }
 
 // Until a soak saves again what it has seen, after a save that took `took`: it holds every fault so
-// far, so that each save is longer than the one before, and all of them together take a hundredth of
-// one core at most.
+// far, so that each save is longer than the one before, and all of them together take a hundredth
+// of one core at most.
 inline Nanoseconds UntilNextSave(Nanoseconds took) {
   return std::max<Nanoseconds>(std::chrono::seconds(10), 100 * took);
 }

@@ -84,6 +84,21 @@ bool Fits(const Innovation& innovation, const Odometry& odometry) {
   return !innovation.of_heading || off_rad2 <= kHeadingGate * (c.hh_rad2 + innovation.heading_rad2);
 }
 
+// A fix that fits an unsure pose may still be one that came off a wall, and no single fix shows
+// which. Off by more than kTaken of its own deviations, it counts as one with a deviation of its
+// distance / kTaken: the pose is moved less, and stays as unsure as it has to be (Huber, Robust
+// estimation of a location parameter, 1964: bounded influence).
+Innovation Tempered(Innovation innovation) {
+  constexpr double kTaken = 2;
+  const auto at_least = [](double variance, double squared_off) {
+    return std::max(variance, squared_off / (kTaken * kTaken));
+  };
+  innovation.position_m2 = at_least(innovation.position_m2, SquaredNorm(innovation.off_world));
+  innovation.heading_rad2 =
+      at_least(innovation.heading_rad2, innovation.off_rad * innovation.off_rad);
+  return innovation;
+}
+
 void Correct(const Innovation& innovation, PoseFilter* filter, Odometry* odometry,
              PoseKeeping* keeping) {
   filter->Measure(PoseNumber::kX, innovation.off_world.x, innovation.position_m2);
@@ -144,7 +159,7 @@ void Weigh(const PoseFix& fix, const RobotModel& profile, const FixTaker& taker,
     return;
   }
   if (Fits(*innovation, *odometry)) {
-    Believe(*innovation, fix.tick, false, odometry, keeping);
+    Believe(Tempered(*innovation), fix.tick, false, odometry, keeping);
     return;
   }
   ++keeping->fixes_refused;

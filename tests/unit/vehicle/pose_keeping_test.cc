@@ -95,12 +95,24 @@ TEST(PoseKeeping, AFixIsWeighedByWhatBothKnow) {
   keeper.odometry = Odometry({}, {.xx_m2 = 0.01, .yy_m2 = 0.01});  // 0.1 m unsure
   keeper.Drive({});
   keeper.Drive({});
-  keeper.Give(keeper.FixOf(2, {0.2, 0}));
+  keeper.Give(keeper.FixOf(2, {0.08, 0}));
   keeper.Drive({});
   const double share = 0.01 / (0.01 + kSigma_m * kSigma_m);
-  EXPECT_NEAR(keeper.odometry.WorldFromBody().position_world.x, share * 0.2, 1e-12);
+  EXPECT_NEAR(keeper.odometry.WorldFromBody().position_world.x, share * 0.08, 1e-12);
   EXPECT_NEAR(keeper.odometry.Covariance().xx_m2, (1 - share) * 0.01, 1e-12);
   EXPECT_EQ(keeper.keeping.fixes_used, 1U);
+}
+
+// One of four deviations counts as one of twice its own.
+TEST(PoseKeeping, AFixFarOffIsWeighedByThatToo) {
+  Keeper keeper(Fitted());
+  keeper.odometry = Odometry({}, {.xx_m2 = 0.01, .yy_m2 = 0.01});
+  keeper.Drive({});
+  keeper.Drive({});
+  keeper.Give(keeper.FixOf(2, {4 * kSigma_m, 0}));
+  keeper.Drive({});
+  EXPECT_NEAR(keeper.odometry.WorldFromBody().position_world.x, 2 * kSigma_m, 1e-12);
+  EXPECT_NEAR(keeper.odometry.Covariance().xx_m2, 0.005, 1e-12);
 }
 
 TEST(PoseKeeping, AFixOfThePositionAlsoRightsTheHeadingThatLedThere) {
@@ -291,6 +303,33 @@ TEST(PoseKeeping, AnOutlierIsDoubtedAndNotFollowed) {
   keeper.Give(keeper.NoisyFix());
   keeper.Drive(kAhead);
   EXPECT_LT(keeper.Sigma(), 1.2 * sigma_m);
+}
+
+// As the fault pose_fix_wrong of config/faults/everything.textproto: half of the fixes come off a
+// wall, 8 of their deviations to any side. Judged as the invariant "pose" does. Where several in a
+// row are wrong, one more may fit.
+TEST(PoseKeeping, SaysHowFarItMayBeOffWhereHalfOfTheFixesAreWrong) {
+  constexpr double kSlack_m = 0.1;
+  int broken = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    Keeper keeper(Fitted(), seed);
+    Random random(1000 + seed);
+    WheelSpeeds wheels;
+    for (int i = 0; i < 800; ++i) {
+      if (i % 20 == 0) wheels = {random.Uniform(1, 5), random.Uniform(1, 5)};
+      keeper.Drive(wheels);
+      if (i % 10 != 0) continue;
+      PoseFix fix = keeper.NoisyFix();
+      if (i > 200 && random.Uniform(0, 1) < 0.5) {
+        const double side_rad = random.Uniform(-kPi, kPi);
+        fix.world_from_body.position_world =
+            fix.world_from_body.position_world + 8 * kSigma_m * Vec2{Cos(side_rad), Sin(side_rad)};
+      }
+      keeper.Give(fix);
+      broken += keeper.Off() > 3 * keeper.Sigma() + kSlack_m ? 1 : 0;
+    }
+  }
+  EXPECT_LE(broken, 3);
 }
 
 TEST(PoseKeeping, AFixWhereNoWheelsCanHaveBroughtItIsPassedOver) {
