@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "services/vehicle/estimation/injected_mutants.h"
+#include "services/vehicle/situation/echo_trust.h"
 #include "services/vehicle/situation/echoes.h"
 #include "services/vehicle/situation/heard_places.h"
 #include "services/vehicle/situation/objects_ahead.h"
@@ -82,9 +83,14 @@ std::optional<Proposal> NotRunning(const Situation& s) {
 }
 
 std::optional<Proposal> RangesStale(const Situation& s) {
-  if (s.own.blind_sensor < 0) return std::nullopt;
   Proposal proposal = DeadStop(Rule::kRangesStale);
-  proposal.sensor = s.own.blind_sensor < static_cast<int>(kSensorCount) ? s.own.blind_sensor : -1;
+  if (s.own.blind_sensor >= 0) {
+    proposal.sensor = s.own.blind_sensor < static_cast<int>(kSensorCount) ? s.own.blind_sensor : -1;
+    return proposal;
+  }
+  const PeerView* const unheard = FindUnheard(s.near);
+  if (unheard == nullptr) return std::nullopt;
+  proposal.peer = unheard->peer->id;
   return proposal;
 }
 

@@ -18,7 +18,11 @@ struct Cone {
 
 struct Cones {
   std::array<Cone, kSensorCount> of;
-  double half_sine;       // of half the angle of any of them
+  double half_sine;  // of half the angle of any of them
+  // Of the angle to either side of straight ahead up to which enabled cones leave no gap; at most
+  // a quarter turn.
+  double ahead_sine;
+  double ahead_cosine;
   std::uint32_t enabled;  // bit i for sensor i
 };
 

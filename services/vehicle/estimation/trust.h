@@ -20,7 +20,8 @@ namespace giveway {
 struct PeerTrust {
   bool ever_doubted = false;
   SteadyTime doubted_at{0};          // the last time, if ever
-  std::uint32_t missing_ticks = 0;   // in a row that a sensor which must have heard it did not
+  // In a row that a sensor which must have heard it did not; of a silent one: that none did.
+  std::uint32_t missing_ticks = 0;
   std::uint32_t standing_ticks = 0;  // in a row that it says it stands
   std::uint32_t closing_ticks = 0;   // of these, in a row, that its echo came nearer all the same
 };

@@ -67,6 +67,33 @@ bool IsMissed(const PeerView& view, std::uint32_t listening, const OwnView& s) {
   return false;
 }
 
+// True if every transducer has just fired and heard nothing at all.
+bool IsAllClear(std::uint32_t listening, const OwnView& s) {
+  return s.cones.enabled != 0 && listening == s.cones.enabled && s.ranges.Echoes() == 0;
+}
+
+// True if it cannot have driven out of the cones ahead, which leave no gap between each other,
+// since it spoke last.
+bool MustBeAhead(const PeerView& view, const OwnView& s) {
+  const Beacon& beacon = view.peer->beacon;
+  const Vec2 centre = InBody(s, beacon.world_from_body.position_world);
+  const double silent_s = Seconds(Age(*view.peer, s.now, s.tick, s.options.tick_period));
+  const double fastest_m_s = std::max(beacon.cruise_m_s, Magnitude(view.speed_m_s));
+  const double within_m = fastest_m_s * silent_s + kPoseSlack_m +
+                          kErrorSigmas * (view.sigma_m + SigmaHeading(s.covariance) * Norm(centre));
+  const double inside_m =
+      s.cones.ahead_sine * centre.x - s.cones.ahead_cosine * Magnitude(centre.y);
+  return inside_m >= within_m && Norm(centre) + within_m <= s.options.profile.sonar_max_range_m;
+}
+
+// In how many ticks in a row a silent peer was not heard where it must be; once that is shown,
+// until anything is heard.
+std::uint32_t TicksUnheard(const PeerView& view, bool all_clear, const OwnView& s) {
+  const std::uint32_t before = view.peer->trust.missing_ticks;
+  if (!view.lost || !all_clear) return 0;
+  return before >= kMissingTicks || MustBeAhead(view, s) ? before + 1 : 0;
+}
+
 // The only one whose body the echo of this sensor can be.
 bool IsItAlone(const PeerView& view, std::size_t sensor, std::span<const PeerView> views) {
   return std::all_of(views.begin(), views.end(), [&](const PeerView& other) {
@@ -108,6 +135,14 @@ std::uint32_t TicksOf(double time_s, const VehicleOptions& options) {
 
 }  // namespace
 
+const PeerView* FindUnheard(const PeersNow& near) {
+  if (!near.someone_lost) return nullptr;
+  const auto unheard = std::ranges::find_if(near.peers, [](const PeerView& view) {
+    return view.lost && view.peer->trust.missing_ticks >= kMissingTicks;
+  });
+  return unheard == near.peers.end() ? nullptr : &*unheard;
+}
+
 void JudgeEchoes(std::span<const PeerView> views, bool someone_lost, const OwnView& s,
                  TrustCounters* counters) {
   if (s.run_state != RunState::kRunning || !s.new_tick) return;
@@ -117,10 +152,12 @@ void JudgeEchoes(std::span<const PeerView> views, bool someone_lost, const OwnVi
   // echo, are no evidence against a peer.
   const bool believes_sonar = !HasImperfectSonar(s.options);
   const std::uint32_t listening = s.cones.enabled & s.ranges.SpokeAt(s.tick);
+  const bool all_clear = believes_sonar && IsAllClear(listening, s);
   for (const PeerView& view : views) {
     PeerTrust& trust = view.peer->trust;
     if (!view.fresh) {
-      trust.missing_ticks = trust.standing_ticks = trust.closing_ticks = 0;
+      trust.missing_ticks = TicksUnheard(view, all_clear, s);
+      trust.standing_ticks = trust.closing_ticks = 0;
       continue;
     }
     trust.missing_ticks = IsMissed(view, listening, s) ? trust.missing_ticks + 1 : 0;

@@ -73,12 +73,14 @@ TEST(Decide, ADeadSensorHaltsAndIsNamed) {
 
 TEST(Decide, CooperativeToSensorOnlyWhenAPeerFallsSilent) {
   BrainBench bench(test::DefaultOptions());
-  bench.Step(ClearScan(1));
-  Outputs out = bench.Step(ClearScan(2), {BeaconOf(2, 1, {.position_world = {0, 3}})});
+  RangeScan wall = ClearScan(0);  // something that shows that the ultrasonics work
+  test::SetEcho(&wall, 7, 4);
+  bench.Step(wall);
+  Outputs out = bench.Step(wall, {BeaconOf(2, 1, {.position_world = {0, 3}})});
   EXPECT_EQ(out.command.decision.mode, Mode::kCooperative);
-  for (int i = 0; i < 4; ++i) out = bench.Step(ClearScan(0));
+  for (int i = 0; i < 4; ++i) out = bench.Step(wall);
   EXPECT_EQ(out.command.decision.mode, Mode::kCooperative);
-  out = bench.Step(ClearScan(0));
+  out = bench.Step(wall);
   EXPECT_EQ(out.command.decision.mode, Mode::kSensorOnly);
 }
 

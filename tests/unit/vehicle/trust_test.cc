@@ -109,6 +109,65 @@ TEST_F(BeaconWithoutEcho, AccusesNobodyWhereUltrasonicsMissThings) {
   EXPECT_EQ(TheMode(), Mode::kCooperative);
 }
 
+// ---- neither beacon nor echo
+
+class SilentPeer : public Trust {
+ protected:
+  // Heard by both senses at that distance, then by the ultrasonics alone for so many ticks.
+  void FallSilent(double away_m, int ticks = 0) {
+    HearFor(10, HearingAhead(away_m), Ahead(0, away_m));
+    StepOn(HearingAhead(away_m), ticks);
+  }
+  void StepOn(const RangeScan& scan, int ticks) {
+    for (int i = 0; i < ticks; ++i) out_ = bench_.Step(scan);
+  }
+  bool Halts() const {
+    return out_.command.decision.rule == Rule::kRangesStale &&
+           out_.command.decision.peer == VehicleId{2} && TheMode() == Mode::kHalt;
+  }
+};
+
+TEST_F(SilentPeer, WhoMustBeHeardAndIsNotShowsThatTheUltrasonicsAreOff) {
+  FallSilent(1);
+  StepOn(ClearScan(0), 5);
+  EXPECT_FALSE(Halts());
+  StepOn(ClearScan(0), 10);
+  EXPECT_TRUE(Halts());
+  StepOn(ClearScan(0), 200);
+  EXPECT_TRUE(Halts()) << "by then it may be elsewhere, but the ultrasonics are off";
+}
+
+TEST_F(SilentPeer, IsDrivenPastOnceUltrasonicsHearAnything) {
+  FallSilent(1);
+  StepOn(ClearScan(0), 20);
+  ASSERT_TRUE(Halts());
+  RangeScan wall = ClearScan(0);
+  test::SetEcho(&wall, 0, 4);
+  StepOn(wall, 1);
+  EXPECT_FALSE(Halts());
+}
+
+TEST_F(SilentPeer, NeedNotBeHeardOnceItMayHaveDrivenOff) {
+  FallSilent(1, 80);
+  StepOn(ClearScan(0), 50);
+  EXPECT_FALSE(Halts());
+}
+
+TEST_F(SilentPeer, NeedNotBeHeardBesideTheCones) {
+  HearFor(10, ClearScan(0), Ahead(0, -1));
+  StepOn(ClearScan(0), 50);
+  EXPECT_FALSE(Halts());
+}
+
+TEST_F(SilentPeer, NeedNotBeHeardWhereUltrasonicsMissThings) {
+  VehicleOptions options = test::DefaultOptions();
+  options.sonar_noise = 0.01;
+  Begin(options);
+  FallSilent(1);
+  StepOn(ClearScan(0), 50);
+  EXPECT_FALSE(Halts());
+}
+
 // ---- an echo without a beacon
 
 TEST_F(Trust, AMoverNobodySpeaksForIsCountedWhenItBegins) {
