@@ -19,7 +19,7 @@ namespace giveway {
 // What a vehicle holds against one peer.
 struct PeerTrust {
   bool ever_doubted = false;
-  SteadyTime doubted_at{0};          // the last time, if ever
+  SteadyTime doubted_at{0};  // the last time, if ever
   // In a row that a sensor which must have heard it did not; of a silent one: that none did.
   std::uint32_t missing_ticks = 0;
   std::uint32_t standing_ticks = 0;  // in a row that it says it stands
