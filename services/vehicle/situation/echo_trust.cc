@@ -152,10 +152,10 @@ void JudgeEchoes(std::span<const PeerView> views, bool someone_lost, const OwnVi
   // echo, are no evidence against a peer.
   const bool believes_sonar = !HasImperfectSonar(s.options);
   const std::uint32_t listening = s.cones.enabled & s.ranges.SpokeAt(s.tick);
-  const bool all_clear = believes_sonar && IsAllClear(listening, s);
+  const bool all_clear = someone_lost && believes_sonar && IsAllClear(listening, s);
   for (const PeerView& view : views) {
     PeerTrust& trust = view.peer->trust;
-    if (!view.fresh) {
+    if (!view.fresh) [[unlikely]] {
       trust.missing_ticks = TicksUnheard(view, all_clear, s);
       trust.standing_ticks = trust.closing_ticks = 0;
       continue;
