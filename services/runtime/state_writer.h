@@ -54,10 +54,10 @@ class StateWriter {
     const std::scoped_lock lock(mutex_);
     return longest_;
   }
-  // How long the last write took that has ended.
-  Nanoseconds Last() {
+  // Processor time of the last write that has ended.
+  Nanoseconds LastCost() {
     const std::scoped_lock lock(mutex_);
-    return last_;
+    return last_cost_;
   }
   // Waits until the newest state is written: nothing is written afterwards.
   void Finish() {
@@ -78,11 +78,12 @@ class StateWriter {
       const State state = *std::exchange(next_, std::nullopt);
       lock.unlock();
       const SteadyTime begun = SteadyNow();
+      const Nanoseconds spent = ThreadTimeNow();
       std::string outcome = write_(state);
       const Nanoseconds took = SteadyNow() - begun;
       lock.lock();
       outcome_ = std::move(outcome);
-      last_ = took;
+      last_cost_ = ThreadTimeNow() - spent;
       longest_ = std::max(longest_, took);
     }
   }
@@ -92,7 +93,7 @@ class StateWriter {
   std::condition_variable work_;
   std::optional<State> next_;
   std::optional<std::string> outcome_;
-  Nanoseconds last_{0};
+  Nanoseconds last_cost_{0};
   Nanoseconds longest_{0};
   bool closed_ = false;
   std::thread thread_;

@@ -29,11 +29,11 @@ inline SoakPhases PhasesOf(double duration_s, std::size_t vehicles) {
   return {warm_up_s, duration_s - heal_s, duration_s};
 }
 
-// Until a soak saves again what it has seen, after a save that took `took`: it holds every fault so
-// far, so that each save is longer than the one before, and all of them together take a hundredth
-// of one core at most.
-inline Nanoseconds UntilNextSave(Nanoseconds took) {
-  return std::max<Nanoseconds>(std::chrono::seconds(10), 100 * took);
+// Until a soak saves again what it has seen, after a save of that processor time: it holds every
+// fault so far, so that each save costs more than the one before, and all of them together take a
+// hundredth of one core at most.
+inline Nanoseconds UntilNextSave(Nanoseconds cost) {
+  return std::max<Nanoseconds>(std::chrono::seconds(10), 100 * cost);
 }
 
 }  // namespace giveway::fleetctl

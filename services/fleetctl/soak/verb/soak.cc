@@ -354,7 +354,7 @@ int SoakProcesses(const SoakOptions& options, const Prepared& prepared, const So
     const std::string why = saver.TakeOutcome().value_or("");
     if (!why.empty()) std::fprintf(stderr, "what was seen so far is not saved: %s\n", why.c_str());
     saver.Write(std::move(so_far));
-    return UntilNextSave(saver.Last());
+    return UntilNextSave(saver.LastCost());
   });
   saver.Finish();
   return Conclude(options, judged(seen));
