@@ -73,11 +73,13 @@ bool IsAllClear(std::uint32_t listening, const OwnView& s) {
 }
 
 // True if it cannot have driven out of the cones ahead, which leave no gap between each other,
-// since it spoke last.
+// since it spoke last. One that is silent for long may have been taken away.
 bool MustBeAhead(const PeerView& view, const OwnView& s) {
+  constexpr double kStillThere_s = 4;  // a world removes it after remove_after_s, 5 s by default
   const Beacon& beacon = view.peer->beacon;
   const Vec2 centre = InBody(s, beacon.world_from_body.position_world);
   const double silent_s = Seconds(Age(*view.peer, s.now, s.tick, s.options.tick_period));
+  if (silent_s > kStillThere_s) return false;
   const double fastest_m_s = std::max(beacon.cruise_m_s, Magnitude(view.speed_m_s));
   const double within_m = fastest_m_s * silent_s + kPoseSlack_m +
                           kErrorSigmas * (view.sigma_m + SigmaHeading(s.covariance) * Norm(centre));
@@ -152,7 +154,8 @@ void JudgeEchoes(std::span<const PeerView> views, bool someone_lost, const OwnVi
   // echo, are no evidence against a peer.
   const bool believes_sonar = !HasImperfectSonar(s.options);
   const std::uint32_t listening = s.cones.enabled & s.ranges.SpokeAt(s.tick);
-  const bool all_clear = someone_lost && believes_sonar && IsAllClear(listening, s);
+  const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
+  const bool all_clear = someone_lost && cooperative && believes_sonar && IsAllClear(listening, s);
   for (const PeerView& view : views) {
     PeerTrust& trust = view.peer->trust;
     if (!view.fresh) [[unlikely]] {

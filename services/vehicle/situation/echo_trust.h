@@ -13,11 +13,11 @@ namespace giveway {
 void JudgeEchoes(std::span<const PeerView> views, bool someone_lost, const OwnView& s,
                  TrustCounters* counters);
 
-// A peer that fell silent, could not yet have got away from where the ultrasonics must hear
-// it, and was not heard: nothing was. Ultrasonics that do not work say that all is clear, and a
+// A peer that fell silent, could not yet have got away from where the ultrasonics must hear it, and
+// was not heard: nothing was. Ultrasonics that do not work say that all is clear, and a cooperative
 // vehicle that hears neither its peers nor their echoes must not drive by that. Until they hear
-// anything, or the peer speaks again. Null where there is none, and where ultrasonics may miss what
-// is there.
+// anything, the peer speaks again or is forgotten. Null where there is none, and where ultrasonics
+// may miss what is there.
 const PeerView* FindUnheard(const PeersNow& near);
 
 }  // namespace giveway

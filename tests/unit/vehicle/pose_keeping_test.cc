@@ -137,6 +137,20 @@ TEST(PoseKeeping, AFixOfTheHeadingRightsIt) {
   EXPECT_NEAR(keeper.odometry.WorldFromBody().heading_rad, 0.1, 1e-9);
 }
 
+// Three deviations count as one of one and a half.
+TEST(PoseKeeping, AHeadingFarOffIsWeighedByThatToo) {
+  Keeper keeper(Fitted());
+  keeper.odometry = Odometry({}, {.hh_rad2 = 0.04});
+  keeper.Drive({});
+  keeper.Drive({});
+  PoseFix fix = keeper.FixOf(2);
+  fix.world_from_body.heading_rad = 0.3;
+  fix.sigma_heading_rad = 0.1;
+  keeper.Give(fix);
+  keeper.Drive({});
+  EXPECT_NEAR(keeper.odometry.WorldFromBody().heading_rad, 0.3 * 0.04 / (0.04 + 0.15 * 0.15), 1e-9);
+}
+
 TEST(PoseKeeping, AFixIsUsedFromTheTickAfterItsOwnOn) {
   Keeper keeper(Fitted());
   keeper.odometry = Odometry({}, {.xx_m2 = 0.01, .yy_m2 = 0.01});

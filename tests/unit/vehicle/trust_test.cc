@@ -153,6 +153,21 @@ TEST_F(SilentPeer, NeedNotBeHeardOnceItMayHaveDrivenOff) {
   EXPECT_FALSE(Halts());
 }
 
+TEST_F(SilentPeer, NeedNotBeHeardOnceItMayHaveBeenTakenAway) {
+  FallSilent(3, 100);
+  StepOn(ClearScan(0), 50);
+  EXPECT_FALSE(Halts());
+}
+
+TEST_F(SilentPeer, ChangesNothingForTheLecturesBehaviours) {
+  VehicleOptions options = test::DefaultOptions();
+  options.behaviour = Behaviour::kLectureYield;
+  Begin(options);
+  FallSilent(1);
+  StepOn(ClearScan(0), 50);
+  EXPECT_FALSE(Halts());
+}
+
 TEST_F(SilentPeer, NeedNotBeHeardBesideTheCones) {
   HearFor(10, ClearScan(0), Ahead(0, -1));
   StepOn(ClearScan(0), 50);
