@@ -124,31 +124,25 @@ TEST(PoseKeeping, AFixOfThePositionAlsoRightsTheHeadingThatLedThere) {
   EXPECT_LT(SigmaHeading(keeper.odometry.Covariance()), 0.9 * before);
 }
 
-TEST(PoseKeeping, AFixOfTheHeadingRightsIt) {
+// Of one that was 0.2 rad unsure of its heading, which is 0.
+double HeadingAfterAFix(double heading_rad, double sigma_rad) {
   Keeper keeper(Fitted());
   keeper.odometry = Odometry({}, {.hh_rad2 = 0.04});
   keeper.Drive({});
   keeper.Drive({});
   PoseFix fix = keeper.FixOf(2);
-  fix.world_from_body.heading_rad = 0.2;
-  fix.sigma_heading_rad = 0.2;
+  fix.world_from_body.heading_rad = heading_rad;
+  fix.sigma_heading_rad = sigma_rad;
   keeper.Give(fix);
   keeper.Drive({});
-  EXPECT_NEAR(keeper.odometry.WorldFromBody().heading_rad, 0.1, 1e-9);
+  return keeper.odometry.WorldFromBody().heading_rad;
 }
+
+TEST(PoseKeeping, AFixOfTheHeadingRightsIt) { EXPECT_NEAR(HeadingAfterAFix(0.2, 0.2), 0.1, 1e-9); }
 
 // Three deviations count as one of one and a half.
 TEST(PoseKeeping, AHeadingFarOffIsWeighedByThatToo) {
-  Keeper keeper(Fitted());
-  keeper.odometry = Odometry({}, {.hh_rad2 = 0.04});
-  keeper.Drive({});
-  keeper.Drive({});
-  PoseFix fix = keeper.FixOf(2);
-  fix.world_from_body.heading_rad = 0.3;
-  fix.sigma_heading_rad = 0.1;
-  keeper.Give(fix);
-  keeper.Drive({});
-  EXPECT_NEAR(keeper.odometry.WorldFromBody().heading_rad, 0.3 * 0.04 / (0.04 + 0.15 * 0.15), 1e-9);
+  EXPECT_NEAR(HeadingAfterAFix(0.3, 0.1), 0.3 * 0.04 / (0.04 + 0.15 * 0.15), 1e-9);
 }
 
 TEST(PoseKeeping, AFixIsUsedFromTheTickAfterItsOwnOn) {
