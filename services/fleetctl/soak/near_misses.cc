@@ -19,18 +19,20 @@ void NearMisses::Fold(std::span<const Truth> truths) {
       newest_.erase(truth.vehicle);
       continue;
     }
-    newest_[truth.vehicle] = truth;
-    Observe(truth);
+    const Body body{truth, radius_m_[truth.vehicle]};
+    newest_[truth.vehicle] = body;
+    Observe(body);
   }
 }
 
-void NearMisses::Observe(const Truth& truth) {
+void NearMisses::Observe(const Body& body) {
+  const Truth& truth = body.truth;
   const Vec2 here = truth.world_from_body.position_world;
   for (const auto& [other, theirs] : newest_) {
-    if (other == truth.vehicle || std::abs(theirs.time_s - truth.time_s) > kSameTime_s) continue;
-    const Vec2 there = theirs.world_from_body.position_world;
-    const double distance_m = std::hypot(here.x - there.x, here.y - there.y) -
-                              radius_m_[truth.vehicle] - radius_m_[other];
+    if (other == truth.vehicle || std::abs(theirs.truth.time_s - truth.time_s) > kSameTime_s)
+      continue;
+    const Vec2 there = theirs.truth.world_from_body.position_world;
+    const double distance_m = Norm(here - there) - body.radius_m - theirs.radius_m;
     const NearMiss now{truth.time_s, truth.vehicle, other, here.x, here.y, distance_m};
     if (!nearest_ || distance_m < nearest_->distance_m) nearest_ = now;
     const auto pair = std::minmax(truth.vehicle, other);

@@ -33,11 +33,16 @@ class NearMisses {
   std::optional<NearMiss> Nearest() const { return nearest_; }
 
  private:
-  void Observe(const Truth& truth);
+  struct Body {
+    Truth truth;
+    double radius_m = 0;
+  };
+
+  void Observe(const Body& body);
   void Keep(const NearMiss& miss);
 
   std::map<VehicleId, double> radius_m_;
-  std::map<VehicleId, Truth> newest_;
+  std::map<VehicleId, Body> newest_;
   std::map<std::pair<VehicleId, VehicleId>, NearMiss> under_way_;
   std::vector<NearMiss> kept_;
   std::optional<NearMiss> nearest_;

@@ -36,15 +36,19 @@ std::int64_t MiddleOf(const Place& place) {
 
 }  // namespace
 
+void Histogram::Octave::Add(std::size_t bucket, std::uint64_t times) {
+  if (counts.empty()) counts.resize(kHalf);
+  counts[bucket] += times;
+  count += times;
+}
+
 void Histogram::Add(std::int64_t value, std::uint64_t times) {
   if (times == 0) return;
   if (value > kHighest) clamped_ += times;
   value = std::clamp<std::int64_t>(value, 0, kHighest);
   const Place place = PlaceOf(value);
   if (octaves_.size() <= place.octave) octaves_.resize(place.octave + 1);
-  Octave& octave = octaves_[place.octave];
-  if (octave.empty()) octave.resize(kHalf);
-  octave[place.bucket] += times;
+  octaves_[place.octave].Add(place.bucket, times);
   min_ = count_ == 0 ? value : std::min(min_, value);
   max_ = count_ == 0 ? value : std::max(max_, value);
   count_ += times;
@@ -63,8 +67,12 @@ std::int64_t Histogram::Quantile(double p) const {
       std::clamp<std::uint64_t>(static_cast<std::uint64_t>(asked), 1, count_);
   std::uint64_t seen = 0;
   for (std::size_t octave = 0; octave < octaves_.size(); ++octave) {
-    for (std::size_t bucket = 0; bucket < octaves_[octave].size(); ++bucket) {
-      seen += octaves_[octave][bucket];
+    if (seen + octaves_[octave].count < rank) {
+      seen += octaves_[octave].count;
+      continue;
+    }
+    for (std::size_t bucket = 0; bucket < kHalf; ++bucket) {
+      seen += octaves_[octave].counts[bucket];
       if (seen >= rank) return std::clamp(MiddleOf({octave, bucket}), min_, max_);
     }
   }
@@ -75,8 +83,8 @@ double Histogram::Mean() const {
   if (count_ == 0) return 0;
   double sum = 0;
   for (std::size_t octave = 0; octave < octaves_.size(); ++octave) {
-    for (std::size_t bucket = 0; bucket < octaves_[octave].size(); ++bucket) {
-      sum += static_cast<double>(octaves_[octave][bucket]) *
+    for (std::size_t bucket = 0; bucket < octaves_[octave].counts.size(); ++bucket) {
+      sum += static_cast<double>(octaves_[octave].counts[bucket]) *
              static_cast<double>(MiddleOf({octave, bucket}));
     }
   }
@@ -87,10 +95,10 @@ void Histogram::Merge(const Histogram& other) {
   if (other.count_ == 0) return;
   if (octaves_.size() < other.octaves_.size()) octaves_.resize(other.octaves_.size());
   for (std::size_t octave = 0; octave < other.octaves_.size(); ++octave) {
-    const Octave& more = other.octaves_[octave];
-    if (more.empty()) continue;
-    if (octaves_[octave].empty()) octaves_[octave].resize(kHalf);
-    for (std::size_t bucket = 0; bucket < kHalf; ++bucket) octaves_[octave][bucket] += more[bucket];
+    const std::vector<std::uint64_t>& more = other.octaves_[octave].counts;
+    for (std::size_t bucket = 0; bucket < more.size(); ++bucket) {
+      octaves_[octave].Add(bucket, more[bucket]);
+    }
   }
   min_ = count_ == 0 ? other.min_ : std::min(min_, other.min_);
   max_ = count_ == 0 ? other.max_ : std::max(max_, other.max_);
@@ -101,8 +109,8 @@ void Histogram::Merge(const Histogram& other) {
 std::vector<HistogramBucket> Histogram::Buckets() const {
   std::vector<HistogramBucket> buckets;
   for (std::size_t octave = 0; octave < octaves_.size(); ++octave) {
-    for (std::size_t bucket = 0; bucket < octaves_[octave].size(); ++bucket) {
-      const std::uint64_t count = octaves_[octave][bucket];
+    for (std::size_t bucket = 0; bucket < octaves_[octave].counts.size(); ++bucket) {
+      const std::uint64_t count = octaves_[octave].counts[bucket];
       if (count > 0) buckets.push_back({LowestOf({octave, bucket}), count});
     }
   }

@@ -57,7 +57,12 @@ class Histogram {
   friend bool operator==(const Histogram& a, const Histogram& b);
 
  private:
-  using Octave = std::vector<std::uint64_t>;  // empty until it is met
+  struct Octave {
+    std::vector<std::uint64_t> counts;  // by bucket; empty until it is met
+    std::uint64_t count = 0;            // of all of them: statuses ask for quantiles all the time
+
+    void Add(std::size_t bucket, std::uint64_t times);
+  };
 
   std::vector<Octave> octaves_;
   std::uint64_t count_ = 0;
