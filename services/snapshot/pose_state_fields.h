@@ -24,8 +24,9 @@ void Visit(auto& fields, Is<Disagreement> auto& disagreement) {
 }
 
 void Visit(auto& fields, Is<PoseKeeping> auto& keeping) {
-  auto& [calibration, past, waiting, agreed, disagreement, fixes_used, fixes_refused, lost] =
-      keeping;
+  auto& [calibration, past, waiting, agreed, disagreement, fixes_used, fixes_refused, lost,
+         wrong_share] = keeping;
+  static_cast<void>(wrong_share);  // of a later layout: brain_state.cc
   fields(calibration, past, waiting, agreed, disagreement, fixes_used, fixes_refused, lost);
 }
 
@@ -37,7 +38,8 @@ inline bool IsSound(const PoseKeeping& keeping) {
   };
   return is_error(calibration.wheels.diameter) && is_error(calibration.wheels.axle) &&
          calibration.own[0] >= 0 && calibration.own[2] >= 0 &&
-         keeping.waiting.sigma_position_m >= 0 && keeping.waiting.sigma_heading_rad >= 0;
+         keeping.waiting.sigma_position_m >= 0 && keeping.waiting.sigma_heading_rad >= 0 &&
+         keeping.wrong_share >= 0 && keeping.wrong_share <= 1;
 }
 
 }  // namespace giveway

@@ -45,6 +45,21 @@ void PoseFilter::Measure(PoseNumber number, double off, double variance) {
   }
 }
 
+void PoseFilter::MixWith(const PoseFilter& before, double probability) {
+  const double p = probability;
+  std::array<double, kPoseNumbers> apart;
+  for (std::size_t i = 0; i < kPoseNumbers; ++i) {
+    apart[i] = moved_[i] - before.moved_[i];
+    moved_[i] = before.moved_[i] + p * apart[i];
+  }
+  for (std::size_t row = 0; row < kPoseNumbers; ++row) {
+    for (std::size_t column = 0; column < kPoseNumbers; ++column) {
+      At(row, column) = p * At(row, column) + (1 - p) * before.At(row, column) +
+                        p * (1 - p) * apart[row] * apart[column];
+    }
+  }
+}
+
 void PoseFilter::Doubt(Vec2 off_world, double heading_rad) {
   At(0, 0) += off_world.x * off_world.x;
   At(0, 1) += off_world.x * off_world.y;

@@ -31,6 +31,10 @@ class PoseFilter {
   // One of the numbers is said to be off by `off` from what it was before any correction, with that
   // variance.
   void Measure(PoseNumber number, double off, double variance);
+  // What was measured since `before` is about this vehicle with that probability only: the mean and
+  // the covariance of both together (probabilistic data association: Bar-Shalom, Daum and Huang,
+  // IEEE Control Systems 29(6), 2009).
+  void MixWith(const PoseFilter& before, double probability);
   // The position may be off by that, too; and the heading by so much.
   void Doubt(Vec2 off_world, double heading_rad);
   // Odometry has moved the pose by displacement_world, along heading forward_world; the rims rolled

@@ -1,7 +1,6 @@
 #include "services/vehicle/estimation/pose_keeping.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "services/types/math/math.h"
@@ -22,6 +21,10 @@ constexpr double kHeadingGate = 10.8;
 // one before: five in a row came once in some 270 vehicle-hours of everything.textproto; eight are
 // a thousand times as rare.
 constexpr std::uint32_t kAgreeing = 8;
+// The weight of the newest fix in the share of those that do not fit; and what that share is taken
+// for at least: a pose can have been unsure for so long that any fix fits.
+constexpr double kShareOfOne = 0.125;
+constexpr double kSomeWrong = 0.03;
 // How much of what fixes say may have come by turning wrongly.
 constexpr double kDoubtedHeading_rad = 0.3;
 // It slows down from this share of its limit on; after having been lost it resumes below this one.
@@ -77,35 +80,41 @@ std::optional<Innovation> InnovationOf(const PoseFix& fix, const Odometry& odome
       .of_heading = fix.sigma_heading_rad > 0};
 }
 
+double SquaredHeadingOff(const Innovation& innovation, const Odometry& odometry) {
+  return innovation.off_rad * innovation.off_rad /
+         (odometry.Covariance().hh_rad2 + innovation.heading_rad2);
+}
+
 bool Fits(const Innovation& innovation, const Odometry& odometry) {
   const PoseCovariance c = odometry.Covariance();
   if (!(Mahalanobis(innovation.off_world, c, innovation.position_m2) <= kGate)) return false;
-  const double off_rad2 = innovation.off_rad * innovation.off_rad;
-  return !innovation.of_heading || off_rad2 <= kHeadingGate * (c.hh_rad2 + innovation.heading_rad2);
+  return !innovation.of_heading || SquaredHeadingOff(innovation, odometry) <= kHeadingGate;
 }
 
-// A fix that fits an unsure pose may still be one that came off a wall, and no single fix shows
-// which. Off by more than kTaken of its own deviations, it counts as one with a deviation of its
-// distance / kTaken: the pose is moved less, and stays as unsure as it has to be (Huber, Robust
-// estimation of a location parameter, 1964: bounded influence).
-Innovation Tempered(Innovation innovation) {
-  constexpr double kTaken = 2;
-  const auto at_least = [](double variance, double squared_off) {
-    return std::max(variance, squared_off / (kTaken * kTaken));
-  };
-  innovation.position_m2 = at_least(innovation.position_m2, SquaredNorm(innovation.off_world));
-  innovation.heading_rad2 =
-      at_least(innovation.heading_rad2, innovation.off_rad * innovation.off_rad);
-  return innovation;
+// A fix that fits may still be one that came off a wall: by chance, or because the pose is unsure
+// or wrong itself. With which probability it is right: right ones lie about the pose as a normal
+// distribution, wrong ones anywhere within the gate. The factors are the gate's area and width, in
+// deviations, times the density in the middle.
+double ProbablyRight(const Innovation& innovation, double wrong_share, const Odometry& odometry) {
+  constexpr double kOfArea = kGate / 2;
+  constexpr double kOfWidth = 2.62;  // 2 sqrt(kHeadingGate) / sqrt(2 pi)
+  const double wrong = std::max(kSomeWrong, wrong_share);
+  double right =
+      (1 - wrong) * kOfArea *
+      Exp(-Mahalanobis(innovation.off_world, odometry.Covariance(), innovation.position_m2) / 2);
+  if (innovation.of_heading) right *= kOfWidth * Exp(-SquaredHeadingOff(innovation, odometry) / 2);
+  return right / (right + wrong);
 }
 
-void Correct(const Innovation& innovation, PoseFilter* filter, Odometry* odometry,
-             PoseKeeping* keeping) {
+void Correct(const Innovation& innovation, double probability, PoseFilter* filter,
+             Odometry* odometry, PoseKeeping* keeping) {
+  const PoseFilter before = *filter;
   filter->Measure(PoseNumber::kX, innovation.off_world.x, innovation.position_m2);
   filter->Measure(PoseNumber::kY, innovation.off_world.y, innovation.position_m2);
   if (innovation.of_heading) {
     filter->Measure(PoseNumber::kHeading, innovation.off_rad, innovation.heading_rad2);
   }
+  filter->MixWith(before, probability);
   *odometry = filter->TheOdometry();
   keeping->calibration = filter->TheCalibration();
   for (PastPose& past : keeping->past) {
@@ -117,11 +126,13 @@ void Correct(const Innovation& innovation, PoseFilter* filter, Odometry* odometr
 void Believe(const Innovation& innovation, Tick tick, bool doubted, Odometry* odometry,
              PoseKeeping* keeping) {
   PoseFilter filter(*odometry, keeping->calibration);
+  double probability = ProbablyRight(innovation, keeping->wrong_share, *odometry);
   if (doubted) {
+    probability = 1;  // so many cannot agree by chance
     const double off_rad = innovation.of_heading ? Magnitude(innovation.off_rad) : 0;
     filter.Doubt(innovation.off_world, std::max(kDoubtedHeading_rad, off_rad));
   }
-  Correct(innovation, &filter, odometry, keeping);
+  Correct(innovation, probability, &filter, odometry, keeping);
   keeping->agreed = tick;
   keeping->disagreement = {};
   ++keeping->fixes_used;
@@ -159,10 +170,12 @@ void Weigh(const PoseFix& fix, const RobotModel& profile, const FixTaker& taker,
     return;
   }
   if (Fits(*innovation, *odometry)) {
-    Believe(Tempered(*innovation), fix.tick, false, odometry, keeping);
+    Believe(*innovation, fix.tick, false, odometry, keeping);
+    keeping->wrong_share -= kShareOfOne * keeping->wrong_share;
     return;
   }
   ++keeping->fixes_refused;
+  keeping->wrong_share += kShareOfOne * (1 - keeping->wrong_share);
   if (IsOutOfReach(*innovation, profile, taker, *odometry, *keeping)) return;
   Disagreement& disagreement = keeping->disagreement;
   const std::uint32_t agreeing = AgreesWith(disagreement, *innovation) ? disagreement.fixes : 0;
@@ -270,6 +283,7 @@ void AddTo(const PoseKeeping& keeping, StateHash* hash) {
   hash->Add(keeping.fixes_used);
   hash->Add(keeping.fixes_refused);
   hash->Add(keeping.lost);
+  if (keeping.wrong_share != 0) hash->Add(keeping.wrong_share);
 }
 
 }  // namespace giveway

@@ -1,4 +1,4 @@
-// How a vehicle keeps its pose: fixes weighted, late, doubted and accepted; wheel errors that fixes
+// How a vehicle keeps its pose: fixes weighted, late and refused; wheel errors that fixes
 // reveal; and when it is uncertain, lost and found.
 #include "services/vehicle/estimation/pose_keeping.h"
 
@@ -8,87 +8,26 @@
 #include <limits>
 
 #include "services/types/math/math.h"
-#include "services/types/math/random.h"
+#include "tests/support/pose_keeper.h"
 
 namespace giveway {
 namespace {
 
-constexpr double kDt_s = 0.05;
-constexpr double kSigma_m = 0.05;
-constexpr WorldEpoch kEpoch{7};
-constexpr VehicleId kOwn{1};
+using test::Fitted;
+using test::kAhead;
+using test::kBend;
+using test::kDt_s;
+using test::Keeper;
+using test::kOwn;
+using test::kSigma_m;
 
-RobotModel Fitted(double wheel_slip = 0) {
-  RobotModel profile = PioneerP3dx();
-  profile.pose_fix = {.every_s = 1, .sigma_m = kSigma_m};
-  profile.wheel_slip = wheel_slip;
-  profile.pose_limit_m = kUsualPoseLimit_m;
-  return profile;
+// That a fix at that squared distance, in deviations, is right: a normal density against the same
+// anywhere within the gate.
+double Probably(double distance2, double wrong_share) {
+  const double right = (1 - wrong_share) * std::exp(-distance2 / 2) / (2 * kPi);
+  const double wrong = wrong_share / (kPi * 13.8);
+  return right / (right + wrong);
 }
-
-// A vehicle whose true pose is known, with encoders that may deviate.
-class Keeper {
- public:
-  explicit Keeper(const RobotModel& profile, std::uint64_t seed = 1)
-      : profile_(profile), random_(seed) {
-    Begin(profile_, &keeping);
-  }
-
-  // One tick at these speeds, by which the encoders count so many times of it.
-  void Drive(WheelSpeeds wheels, double counts = 1) {
-    ++tick;
-    const double slip = profile_.wheel_slip;
-    const WheelSpeeds slipping = {wheels.left_rad_s * (1 + random_.Gaussian(slip)),
-                                  wheels.right_rad_s * (1 + random_.Gaussian(slip))};
-    const WheelSpeeds ground = AsNominal(profile_.drive, profile_.wheel_error, slipping);
-    truth = AdvanceArc(truth, TwistFromWheels(profile_.drive, ground), kDt_s);
-    past_[tick % 64] = truth;
-    Roll(profile_,
-         {.wheels = {counts * wheels.left_rad_s, counts * wheels.right_rad_s},
-          .dt_s = kDt_s,
-          .wheel_error = slip,
-          .tick = Tick{tick}},
-         &odometry, &keeping);
-    TakeWaiting(profile_, Taker(), &odometry, &keeping);
-  }
-  PoseFix FixOf(std::uint32_t at_tick, Vec2 off = {}) const {
-    PoseFix fix{.world_from_body = past_[at_tick % 64],
-                .sigma_position_m = kSigma_m,
-                .vehicle = kOwn,
-                .epoch = kEpoch,
-                .tick = Tick{at_tick}};
-    fix.world_from_body.position_world = fix.world_from_body.position_world + off;
-    return fix;
-  }
-  PoseFix NoisyFix() {
-    const double x_m = random_.Gaussian(kSigma_m);
-    return FixOf(tick, {x_m, random_.Gaussian(kSigma_m)});
-  }
-  void Give(const PoseFix& fix) { Take(fix, profile_, Taker(), &odometry, &keeping); }
-  FixTaker Taker() const {
-    return {.vehicle = kOwn, .epoch = kEpoch, .tick = Tick{tick}, .tick_s = kDt_s};
-  }
-  double Off() const {
-    return Norm(odometry.WorldFromBody().position_world - truth.position_world);
-  }
-  double Sigma() const { return SigmaPosition(PromisedCovariance(odometry, keeping)); }
-  double Share() {
-    return JudgeCertainty(profile_, PromisedCovariance(odometry, keeping), &keeping);
-  }
-
-  std::uint32_t tick = 0;
-  Pose truth;
-  Odometry odometry;
-  PoseKeeping keeping;
-
- private:
-  RobotModel profile_;
-  Random random_;
-  std::array<Pose, 64> past_{};
-};
-
-constexpr WheelSpeeds kAhead = {4, 4};
-constexpr WheelSpeeds kBend = {3.8, 4.2};
 
 TEST(PoseKeeping, AFixIsWeighedByWhatBothKnow) {
   Keeper keeper(Fitted());
@@ -98,21 +37,11 @@ TEST(PoseKeeping, AFixIsWeighedByWhatBothKnow) {
   keeper.Give(keeper.FixOf(2, {0.08, 0}));
   keeper.Drive({});
   const double share = 0.01 / (0.01 + kSigma_m * kSigma_m);
-  EXPECT_NEAR(keeper.odometry.WorldFromBody().position_world.x, share * 0.08, 1e-12);
-  EXPECT_NEAR(keeper.odometry.Covariance().xx_m2, (1 - share) * 0.01, 1e-12);
+  const double right = Probably(0.08 * 0.08 / (0.01 + kSigma_m * kSigma_m), 0.03);
+  EXPECT_NEAR(keeper.odometry.WorldFromBody().position_world.x, right * share * 0.08, 1e-12);
+  const double apart_m2 = right * (1 - right) * share * share * 0.08 * 0.08;
+  EXPECT_NEAR(keeper.odometry.Covariance().xx_m2, (1 - right * share) * 0.01 + apart_m2, 1e-12);
   EXPECT_EQ(keeper.keeping.fixes_used, 1U);
-}
-
-// One of four deviations counts as one of twice its own.
-TEST(PoseKeeping, AFixFarOffIsWeighedByThatToo) {
-  Keeper keeper(Fitted());
-  keeper.odometry = Odometry({}, {.xx_m2 = 0.01, .yy_m2 = 0.01});
-  keeper.Drive({});
-  keeper.Drive({});
-  keeper.Give(keeper.FixOf(2, {4 * kSigma_m, 0}));
-  keeper.Drive({});
-  EXPECT_NEAR(keeper.odometry.WorldFromBody().position_world.x, 2 * kSigma_m, 1e-12);
-  EXPECT_NEAR(keeper.odometry.Covariance().xx_m2, 0.005, 1e-12);
 }
 
 TEST(PoseKeeping, AFixOfThePositionAlsoRightsTheHeadingThatLedThere) {
@@ -138,11 +67,11 @@ double HeadingAfterAFix(double heading_rad, double sigma_rad) {
   return keeper.odometry.WorldFromBody().heading_rad;
 }
 
-TEST(PoseKeeping, AFixOfTheHeadingRightsIt) { EXPECT_NEAR(HeadingAfterAFix(0.2, 0.2), 0.1, 1e-9); }
+TEST(PoseKeeping, AFixOfTheHeadingRightsIt) { EXPECT_NEAR(HeadingAfterAFix(0.2, 0.2), 0.1, 1e-3); }
 
-// Three deviations count as one of one and a half.
-TEST(PoseKeeping, AHeadingFarOffIsWeighedByThatToo) {
-  EXPECT_NEAR(HeadingAfterAFix(0.3, 0.1), 0.3 * 0.04 / (0.04 + 0.15 * 0.15), 1e-9);
+TEST(PoseKeeping, AHeadingFarOffHardlyCounts) {
+  EXPECT_GT(HeadingAfterAFix(0.3, 0.1), 0.2);
+  EXPECT_LT(HeadingAfterAFix(0.7, 0.1), 0.5);
 }
 
 TEST(PoseKeeping, AFixIsUsedFromTheTickAfterItsOwnOn) {
@@ -236,30 +165,6 @@ TEST(PoseKeeping, AFixThatWaitedIsLookedAtLikeAnyOther) {
   EXPECT_EQ(keeper.odometry.WorldFromBody(), Pose{});
 }
 
-TEST(PoseKeeping, AHeadingThatDoesNotFitIsDoubtedToo) {
-  Keeper keeper(Fitted());
-  keeper.odometry = Odometry({}, {.xx_m2 = 0.0001, .yy_m2 = 0.0001, .hh_rad2 = 0.0001});
-  for (int i = 0; i < 3; ++i) keeper.Drive({});
-  const auto turned = [&](double off_rad) {
-    PoseFix fix = keeper.FixOf(keeper.tick - 1);
-    fix.world_from_body.heading_rad += off_rad;
-    fix.sigma_heading_rad = 0.05;
-    return fix;
-  };
-  keeper.Give(turned(0.5));
-  EXPECT_EQ(keeper.keeping.disagreement.fixes, 1U);
-  EXPECT_NEAR(SigmaHeading(PromisedCovariance(keeper.odometry, keeper.keeping)), 0.5, 0.01);
-  keeper.Drive({});
-  keeper.Give(turned(-0.5));
-  EXPECT_EQ(keeper.keeping.disagreement.fixes, 1U) << "they do not agree";
-  for (int i = 0; i < 7; ++i) {
-    keeper.Drive({});
-    keeper.Give(turned(-0.5));
-  }
-  EXPECT_EQ(keeper.keeping.fixes_used, 1U);
-  EXPECT_NEAR(keeper.odometry.WorldFromBody().heading_rad, -0.5, 0.05);
-}
-
 // The error of a step has one model: with fixes too the encoders are not taken for exact.
 TEST(PoseKeeping, SaysWhatAWayAddsToTheDoubt) {
   const auto added = [](const RobotModel& profile) {
@@ -293,81 +198,6 @@ TEST(PoseKeeping, ItsErrorStaysAsSmallAsItSays) {
   // Two numbers along the worst axis each: at most 2, and not far from it.
   EXPECT_GT(squares / samples, 0.5);
   EXPECT_LT(squares / samples, 2.5);
-}
-
-// One outlier does not move the vehicle; until the next fix it reports that it may be there.
-TEST(PoseKeeping, AnOutlierIsDoubtedAndNotFollowed) {
-  Keeper keeper(Fitted());
-  for (int i = 0; i < 200; ++i) {
-    keeper.Drive(kAhead);
-    if (i % 20 == 10) keeper.Give(keeper.NoisyFix());
-  }
-  const double sigma_m = keeper.Sigma();
-  keeper.Give(keeper.FixOf(keeper.tick, {0, 0.6}));
-  keeper.Drive(kAhead);
-  EXPECT_LT(keeper.Off(), 0.1);
-  EXPECT_GT(keeper.Sigma(), 0.5);
-  EXPECT_EQ(keeper.keeping.fixes_refused, 1U);
-  keeper.Give(keeper.NoisyFix());
-  keeper.Drive(kAhead);
-  EXPECT_LT(keeper.Sigma(), 1.2 * sigma_m);
-}
-
-// As the fault pose_fix_wrong of config/faults/everything.textproto: half of the fixes come off a
-// wall, 8 of their deviations to any side. Judged as the invariant "pose" does. Where several in a
-// row are wrong, one more may fit.
-TEST(PoseKeeping, SaysHowFarItMayBeOffWhereHalfOfTheFixesAreWrong) {
-  constexpr double kSlack_m = 0.1;
-  int broken = 0;
-  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
-    Keeper keeper(Fitted(), seed);
-    Random random(1000 + seed);
-    WheelSpeeds wheels;
-    for (int i = 0; i < 800; ++i) {
-      if (i % 20 == 0) wheels = {random.Uniform(1, 5), random.Uniform(1, 5)};
-      keeper.Drive(wheels);
-      if (i % 10 != 0) continue;
-      PoseFix fix = keeper.NoisyFix();
-      if (i > 200 && random.Uniform(0, 1) < 0.5) {
-        const double side_rad = random.Uniform(-kPi, kPi);
-        fix.world_from_body.position_world =
-            fix.world_from_body.position_world + 8 * kSigma_m * Vec2{Cos(side_rad), Sin(side_rad)};
-      }
-      keeper.Give(fix);
-      broken += keeper.Off() > 3 * keeper.Sigma() + kSlack_m ? 1 : 0;
-    }
-  }
-  EXPECT_LE(broken, 3);
-}
-
-TEST(PoseKeeping, AFixWhereNoWheelsCanHaveBroughtItIsPassedOver) {
-  Keeper keeper(Fitted());
-  for (int i = 0; i < 40; ++i) {
-    keeper.Drive(kAhead);
-    if (i % 20 == 10) keeper.Give(keeper.NoisyFix());
-  }
-  const double sigma_m = keeper.Sigma();
-  keeper.Give(keeper.FixOf(keeper.tick - 1, {20, 0}));
-  EXPECT_EQ(keeper.Sigma(), sigma_m);
-  EXPECT_EQ(keeper.keeping.fixes_refused, 1U);
-}
-
-// Encoders that count a third too much: fixes are doubted, then accepted.
-TEST(PoseKeeping, FixesThatAgreeAreBelievedAgainstTheWheels) {
-  Keeper keeper(Fitted());
-  for (int i = 0; i < 40; ++i) {
-    keeper.Drive(kAhead, 2.5);
-    const Vec2 off = keeper.odometry.WorldFromBody().position_world - keeper.truth.position_world;
-    ASSERT_LE(Norm(off), 3 * keeper.Sigma() + 0.6) << i;
-    if (i % 20 == 19) keeper.Give(keeper.NoisyFix());
-  }
-  EXPECT_GT(keeper.keeping.disagreement.fixes, 0U);
-  for (int i = 0; i < 160; ++i) {
-    keeper.Drive({});
-    if (i % 20 == 19) keeper.Give(keeper.NoisyFix());
-  }
-  EXPECT_EQ(keeper.keeping.disagreement.fixes, 0U);
-  EXPECT_LT(keeper.Off(), 0.15);
 }
 
 // As the fault encoder_wrong does: undetectable by wheels alone, within the allowance of others
