@@ -34,6 +34,8 @@ constexpr std::uint64_t kLast<RunState> = static_cast<std::uint64_t>(RunState::k
 template <>
 constexpr std::uint64_t kLast<Echo> = static_cast<std::uint64_t>(Echo::kEcho);
 template <>
+constexpr std::uint64_t kLast<ScanNews> = static_cast<std::uint64_t>(ScanNews::kOther);
+template <>
 constexpr std::uint64_t kLast<SeenClass> = static_cast<std::uint64_t>(SeenClass::kSignal);
 template <>
 constexpr std::uint64_t kLast<SignalPhase> = static_cast<std::uint64_t>(SignalPhase::kGreen);
@@ -213,15 +215,33 @@ bool IsSound(const RangeView& ranges, const VehicleOptions& options) {
 
 bool IsKnown(std::uint32_t format) {
   return format >= static_cast<std::uint32_t>(StateFormat::kFirst) &&
-         format <= static_cast<std::uint32_t>(StateFormat::kWithDoubtedHeading);
+         format <= static_cast<std::uint32_t>(StateFormat::kWithWrongSenses);
+}
+
+// What formats after the second have at the end.
+void VisitAppended(auto& fields, Is<VehicleState> auto& state) {
+  if (fields.Has(StateFormat::kWithGrid)) fields(state.sensed.grid);
+  if (fields.Has(StateFormat::kWithDoubtedHeading)) fields(state.motion.pose.disagreement.off_rad);
+  if (!fields.Has(StateFormat::kWithWrongSenses)) return;
+  fields(state.motion.pose.wrong_share);
+  for (auto& peer : state.heard.peers.Peers()) fields(peer.trust.unheard);
 }
 
 std::string BytesIn(StateFormat format, const VehicleState& state) {
   StateWriter writer(format);
   writer(static_cast<std::uint32_t>(format), VehicleState::kVersion, state);
-  if (writer.Has(StateFormat::kWithGrid)) writer(state.sensed.grid);
-  if (writer.Has(StateFormat::kWithDoubtedHeading)) writer(state.motion.pose.disagreement.off_rad);
+  VisitAppended(writer, state);
   return writer.Take();
+}
+
+// The oldest that has all of it.
+StateFormat FormatOf(const VehicleState& state) {
+  const auto peers = state.heard.peers.Peers();
+  if (state.motion.pose.wrong_share != 0 ||
+      std::ranges::any_of(peers, [](const Peer& peer) { return peer.trust.unheard.ticks > 0; }))
+    return StateFormat::kWithWrongSenses;
+  if (state.motion.pose.disagreement.off_rad != 0) return StateFormat::kWithDoubtedHeading;
+  return state.sensed.grid.IsActive() ? StateFormat::kWithGrid : kStateFormat;
 }
 
 // What a number is used as a place by.
@@ -243,11 +263,7 @@ bool IsSound(const VehicleState& state, const VehicleOptions& options) {
 
 }  // namespace
 
-std::string BytesOf(const VehicleState& state) {
-  if (state.motion.pose.disagreement.off_rad != 0)
-    return BytesIn(StateFormat::kWithDoubtedHeading, state);
-  return BytesIn(state.sensed.grid.IsActive() ? StateFormat::kWithGrid : kStateFormat, state);
-}
+std::string BytesOf(const VehicleState& state) { return BytesIn(FormatOf(state), state); }
 
 bool AreBytesOf(std::string_view bytes, const VehicleState& state) {
   StateReader reader(bytes);
@@ -266,8 +282,7 @@ std::unique_ptr<VehicleState> StateFrom(std::string_view bytes, const VehicleOpt
   auto state = std::make_unique<VehicleState>();
   Begin(options.profile, &state->motion.pose);  // an image without it
   reader(*state);
-  if (reader.Has(StateFormat::kWithGrid)) reader(state->sensed.grid);
-  if (reader.Has(StateFormat::kWithDoubtedHeading)) reader(state->motion.pose.disagreement.off_rad);
+  VisitAppended(reader, *state);
   if (!reader.IsSound() || !reader.IsAtEnd() || !IsSound(*state, options)) return nullptr;
   return state;
 }

@@ -43,8 +43,14 @@ void Visit(auto& fields, Is<Encounter> auto& encounter) {
   fields(active, holds, clears, lost, released, entered, lost_at, lost_wait);
 }
 
+void Visit(auto& fields, Is<Unheard> auto& unheard) {
+  auto& [shown_by, ticks] = unheard;
+  fields(shown_by, ticks);
+}
+
 void Visit(auto& fields, Is<PeerTrust> auto& trust) {
-  auto& [ever_doubted, doubted_at, missing, standing, closing] = trust;
+  auto& [ever_doubted, doubted_at, missing, standing, closing, unheard] = trust;
+  static_cast<void>(unheard);  // behind the rest where it is used: brain_state.cc
   fields(ever_doubted, doubted_at, missing, standing, closing);
 }
 
@@ -157,10 +163,11 @@ enum class StateFormat : std::uint32_t {
   kFirst = 1,
   kWithPose = 2,
   kWithGrid = 3,
-  kWithDoubtedHeading = 4
+  kWithDoubtedHeading = 4,
+  kWithWrongSenses = 5
 };
-// Of a brain that has taken nothing into its obstacle grid, and whose fixes do not doubt its
-// heading; of others it is one of those after it.
+// Of a brain that has taken nothing into its obstacle grid, and to which neither fixes nor
+// ultrasonics seemed wrong; of others it is one of those after it.
 inline constexpr StateFormat kStateFormat = StateFormat::kWithPose;
 
 template <typename T>

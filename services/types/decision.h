@@ -32,7 +32,7 @@ enum class Rule : std::uint8_t {
   kCruise,              // nothing limits: drive to the goal
   kNotRunning,          // the world waits or has ended
   kArrived,             // the goal is reached
-  kRangesStale,         // own ranges too old or missing
+  kRangesStale,         // own ranges too old, missing, or of ultrasonics that do not work
   kGiveWay,             // the peer comes first in the order
   kNotGranted,          // first in the order, but the peer has not said that it gives way
   kPeerLost,            // a peer on a conflicting path fell silent

@@ -115,6 +115,7 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
   state.motion.counted = scan.counted;
   state.world.run_state = scan.run_state;
   state.motion.wheels = scan.wheels;
+  change_ = ChangeOf(state.sensed.ranges, scan, options_, cones_);
   if (HasImperfectSonar(options_)) {
     const Twist twist = TwistFromWheels(profile.drive, scan.wheels);
     const double turned_rad = twist.turn_rad_s * dt_s;
@@ -231,6 +232,7 @@ OwnView Vehicle::AssessSelf(const Inputs& inputs) {
   const OwnMotion motion = AssessOwnMotion(pose);
   const OwnCourse course = UpdatePath(pose, options_, &state.route, &state.progress);
   const SensorsNow sensors{.ranges = state.sensed.ranges,
+                           .change = change_,
                            .echoes = echoes_,
                            .cones = cones_,
                            .objects = state.sensed.objects,
@@ -379,6 +381,7 @@ Beacon Vehicle::MakeBeacon(const Situation& s) {
 Outputs Vehicle::Step(const Inputs& inputs) noexcept {
   VehicleState& state = *state_;
   if (inputs.roster) TakeRoster(*inputs.roster, options_, &state);
+  change_ = {};
   if (inputs.scan) TakeScan(*inputs.scan, inputs.now);
   TakeFix(inputs);
   TakePeers(inputs);

@@ -86,6 +86,7 @@ class Vehicle {
 
   VehicleOptions options_;
   Cones cones_;         // of options_.profile
+  ScanChange change_;   // of one step
   HeardEchoes echoes_;  // scratch of one step
   HeardPlaces places_;  // the same
   std::unique_ptr<VehicleState> state_;

@@ -50,6 +50,7 @@ class Onlooker {
  private:
   VehicleOptions options_;
   RangeView ranges_;
+  ScanChange change_;
   HeardEchoes echoes_{};
   SeenObjects objects_;
   Cones cones_ = ConesOf(options_.profile);
@@ -57,7 +58,11 @@ class Onlooker {
                {},
                {},
                {},
-               {.ranges = ranges_, .echoes = echoes_, .cones = cones_, .objects = objects_},
+               {.ranges = ranges_,
+                .change = change_,
+                .echoes = echoes_,
+                .cones = cones_,
+                .objects = objects_},
                {},
                options_};
 };

@@ -34,6 +34,16 @@ double CoveredTo(const RobotModel& profile, int side) {
   return std::min(to_rad, kPi / 2);
 }
 
+// True if on that side another enabled cone starts where this one ends, or before.
+bool AdjoinsAnother(std::size_t sensor, int side, const RobotModel& profile) {
+  const double ends_rad = side * profile.sonar[sensor].bearing_rad + profile.sonar_half_angle_rad;
+  return std::ranges::any_of(profile.sonar, [&](const SensorMount& other) {
+    const double middle_rad = side * other.bearing_rad;
+    const double half_rad = profile.sonar_half_angle_rad;
+    return other.enabled && middle_rad - half_rad <= ends_rad && middle_rad + half_rad > ends_rad;
+  });
+}
+
 }  // namespace
 
 Cones ConesOf(const RobotModel& profile) {
@@ -45,7 +55,10 @@ Cones ConesOf(const RobotModel& profile) {
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     cones.of[i] = ConeOf(profile.sonar[i].bearing_rad, profile.sonar_half_angle_rad);
     cones.enabled |= (profile.sonar[i].enabled ? 1U : 0U) << i;
+    const bool amid = AdjoinsAnother(i, 1, profile) && AdjoinsAnother(i, -1, profile);
+    cones.amid |= (amid ? 1U : 0U) << i;
   }
+  cones.amid &= cones.enabled;
   return cones;
 }
 

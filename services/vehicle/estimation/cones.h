@@ -24,6 +24,7 @@ struct Cones {
   double ahead_sine;
   double ahead_cosine;
   std::uint32_t enabled;  // bit i for sensor i
+  std::uint32_t amid;     // of these, whose cone leaves no gap to others on either side
 };
 
 Cones ConesOf(const RobotModel& profile);

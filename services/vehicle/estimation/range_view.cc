@@ -3,10 +3,6 @@
 namespace giveway {
 namespace {
 
-// A jump between two readings faster than this is another object, not motion of the same one: two
-// vehicles at the profile's top speed of 1.0 m/s close at 2.0 m/s.
-constexpr double kMaxClosing_m_s = 2.5;
-
 bool IsOneObject(double closing_m_s) {
   return closing_m_s < kMaxClosing_m_s && closing_m_s > -kMaxClosing_m_s;
 }

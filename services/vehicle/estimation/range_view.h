@@ -39,6 +39,10 @@ double EchoAge(const SensorView& view, Tick tick, Nanoseconds tick_period);
 // rate then has a standard deviation of at most that of a reading over this time.
 inline constexpr double kClosingTime_s = 0.4;
 
+// A jump between two readings faster than this is another object, not motion of the same one: two
+// vehicles at the profile's top speed of 1.0 m/s close at 2.0 m/s.
+inline constexpr double kMaxClosing_m_s = 2.5;
+
 // True if the vehicle's ultrasonics are to be taken with TakeImperfect.
 inline bool HasImperfectSonar(const VehicleOptions& options) {
   return options.sonar_refresh.count() > 0 || options.sonar_noise > 0;

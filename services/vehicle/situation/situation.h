@@ -20,6 +20,7 @@
 #include "services/vehicle/estimation/objects.h"
 #include "services/vehicle/estimation/peer_table.h"
 #include "services/vehicle/estimation/range_view.h"
+#include "services/vehicle/estimation/scan_change.h"
 #include "services/vehicle/estimation/signal_table.h"
 
 namespace giveway {
@@ -169,6 +170,7 @@ struct OwnCourse {
 // What its sensors hold.
 struct SensorsNow {
   const RangeView& ranges;
+  const ScanChange& change;   // by the scan of this step
   const HeardEchoes& echoes;  // in `ranges`
   const Cones& cones;
   const SeenObjects& objects;

@@ -231,5 +231,24 @@ TEST(BrainState, KeepsAHeadingThatFixesDoubt) {
   EXPECT_TRUE(AreBytesOf(bytes, *state));
 }
 
+TEST(BrainState, KeepsWhichSensesSeemedWrong) {
+  BrainBench bench(DefaultOptions());
+  bench.Step(ClearScan(0));
+  bench.Step(ClearScan(0), {BeaconOf(2, 1, {.position_world = {1, 0}})});
+  auto state = std::make_unique<VehicleState>(bench.Brain().State());
+  PeerTrust& trust = state->heard.peers.Peers()[0].trust;
+  const std::size_t before = BytesOf(*state).size();
+  trust.unheard = {ScanNews::kLeaps, 7};
+  state->motion.pose.wrong_share = 0.25;
+  const std::string bytes = BytesOf(*state);
+  EXPECT_GT(bytes.size(), before);
+  const auto same = StateFrom(bytes, DefaultOptions());
+  ASSERT_NE(same, nullptr);
+  EXPECT_EQ(same->heard.peers.Peers()[0].trust.unheard.ticks, 7U);
+  EXPECT_EQ(same->heard.peers.Peers()[0].trust.unheard.shown_by, ScanNews::kLeaps);
+  EXPECT_EQ(same->motion.pose.wrong_share, 0.25);
+  EXPECT_TRUE(AreBytesOf(bytes, *state));
+}
+
 }  // namespace
 }  // namespace giveway::test
