@@ -126,9 +126,10 @@ void Correct(const Innovation& innovation, double probability, PoseFilter* filte
 void Believe(const Innovation& innovation, Tick tick, bool doubted, Odometry* odometry,
              PoseKeeping* keeping) {
   PoseFilter filter(*odometry, keeping->calibration);
-  double probability = ProbablyRight(innovation, keeping->wrong_share, *odometry);
+  // As many as must agree cannot all be wrong.
+  const double probability =
+      doubted ? 1 : ProbablyRight(innovation, keeping->wrong_share, *odometry);
   if (doubted) {
-    probability = 1;  // so many cannot agree by chance
     const double off_rad = innovation.of_heading ? Magnitude(innovation.off_rad) : 0;
     filter.Doubt(innovation.off_world, std::max(kDoubtedHeading_rad, off_rad));
   }

@@ -147,9 +147,9 @@ TEST_F(ScanChangeOf, ALeapIsJudgedByTheTimeSinceTheSensorFired) {
   RangeScan held = ScanOf(29, kEight);
   for (RangeReading& reading : held.readings) reading.tick = Tick{10};
   view.Take(held, SteadyTime{0}, options_.tick_period);
-  Scan farther = kEight;
-  for (Heard& heard : farther) heard.range_m += 1;
-  EXPECT_EQ(ChangeOf(view, ScanOf(30, farther), options_, ConesOf(options_.profile)).news,
+  Scan further = kEight;
+  for (Heard& heard : further) heard.range_m += 1;
+  EXPECT_EQ(ChangeOf(view, ScanOf(30, further), options_, ConesOf(options_.profile)).news,
             ScanNews::kOther);
 }
 
