@@ -215,16 +215,27 @@ bool IsSound(const RangeView& ranges, const VehicleOptions& options) {
 
 bool IsKnown(std::uint32_t format) {
   return format >= static_cast<std::uint32_t>(StateFormat::kFirst) &&
-         format <= static_cast<std::uint32_t>(StateFormat::kWithWrongSenses);
+         format <= static_cast<std::uint32_t>(StateFormat::kWithDoubtedSonar);
+}
+
+// Format 5 had the doubt of the ultrasonics once a peer. It is not taken on.
+void VisitDoubtsByPeer(auto& fields, Is<VehicleState> auto& state) {
+  for ([[maybe_unused]] auto& peer : state.heard.peers.Peers()) {
+    SonarDoubt none;
+    fields(none.shown_by, none.ticks);
+  }
 }
 
 // What formats after the second have at the end.
 void VisitAppended(auto& fields, Is<VehicleState> auto& state) {
   if (fields.Has(StateFormat::kWithGrid)) fields(state.sensed.grid);
   if (fields.Has(StateFormat::kWithDoubtedHeading)) fields(state.motion.pose.disagreement.off_rad);
-  if (!fields.Has(StateFormat::kWithWrongSenses)) return;
-  fields(state.motion.pose.wrong_share);
-  for (auto& peer : state.heard.peers.Peers()) fields(peer.trust.unheard);
+  if (fields.Has(StateFormat::kWithWrongFixes)) fields(state.motion.pose.wrong_share);
+  if (fields.Has(StateFormat::kWithDoubtedSonar)) {
+    fields(state.sensed.doubt);
+  } else if (fields.Has(StateFormat::kWithWrongFixes)) {
+    VisitDoubtsByPeer(fields, state);
+  }
 }
 
 std::string BytesIn(StateFormat format, const VehicleState& state) {
@@ -236,10 +247,8 @@ std::string BytesIn(StateFormat format, const VehicleState& state) {
 
 // The oldest that has all of it.
 StateFormat FormatOf(const VehicleState& state) {
-  const auto peers = state.heard.peers.Peers();
-  if (state.motion.pose.wrong_share != 0 ||
-      std::ranges::any_of(peers, [](const Peer& peer) { return peer.trust.unheard.ticks > 0; }))
-    return StateFormat::kWithWrongSenses;
+  if (state.motion.pose.wrong_share != 0 || state.sensed.doubt.ticks > 0)
+    return StateFormat::kWithDoubtedSonar;
   if (state.motion.pose.disagreement.off_rad != 0) return StateFormat::kWithDoubtedHeading;
   return state.sensed.grid.IsActive() ? StateFormat::kWithGrid : kStateFormat;
 }

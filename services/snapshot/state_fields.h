@@ -43,14 +43,13 @@ void Visit(auto& fields, Is<Encounter> auto& encounter) {
   fields(active, holds, clears, lost, released, entered, lost_at, lost_wait);
 }
 
-void Visit(auto& fields, Is<Unheard> auto& unheard) {
-  auto& [shown_by, ticks] = unheard;
-  fields(shown_by, ticks);
+void Visit(auto& fields, Is<SonarDoubt> auto& doubt) {
+  auto& [shown_by, ticks, shown_at] = doubt;
+  fields(shown_by, ticks, shown_at);
 }
 
 void Visit(auto& fields, Is<PeerTrust> auto& trust) {
-  auto& [ever_doubted, doubted_at, missing, standing, closing, unheard] = trust;
-  static_cast<void>(unheard);  // behind the rest where it is used: brain_state.cc
+  auto& [ever_doubted, doubted_at, missing, standing, closing] = trust;
   fields(ever_doubted, doubted_at, missing, standing, closing);
 }
 
@@ -164,7 +163,8 @@ enum class StateFormat : std::uint32_t {
   kWithPose = 2,
   kWithGrid = 3,
   kWithDoubtedHeading = 4,
-  kWithWrongSenses = 5
+  kWithWrongFixes = 5,
+  kWithDoubtedSonar = 6
 };
 // Of a brain that has taken nothing into its obstacle grid, and to which neither fixes nor
 // ultrasonics seemed wrong; of others it is one of those after it.
@@ -177,8 +177,8 @@ concept KeepsItsOwn = Is<T, Odometry> || Is<T, RangeView> || Is<T, ObstacleGrid>
 void Visit(auto& fields, KeepsItsOwn auto& part) { StateFields::Of(fields, part); }
 
 // In the order of format 1, which is older than the groups. What is appended to the state is led
-// over apart, by the format that has it, and the grid behind the rest where it is used:
-// brain_state.cc.
+// over apart, by the format that has it, and the grid and the doubt behind the rest where they are
+// used: brain_state.cc.
 void Visit(auto& fields, Is<VehicleState> auto& state) {
   auto& [published, world, motion, route, progress, waiting, movers, last, sensed, heard,
          counters] = state;
@@ -191,10 +191,11 @@ void Visit(auto& fields, Is<VehicleState> auto& state) {
   auto& [order, waited_ticks, waited, let_pass] = waiting;
   auto& [unidentified, unidentified_sensor, unidentified_since, turned_tick] = movers;
   auto& [decided_tick, decision, steer_side, blocked_by, blocked_tick] = last;
-  auto& [ranges, grid, objects] = sensed;
+  auto& [ranges, grid, objects, doubt] = sensed;
   auto& [peers, signals, last_heard] = heard;
   auto& [scans_refused, signals_refused, beacons, qos, trust] = counters;
   static_cast<void>(grid);
+  static_cast<void>(doubt);
   fields(boot_epoch, seq, epoch, tick, placed_in, run_state, odometry, pose_tick, wheels, counted,
          bearing, waypoint, arrived, order, waited_ticks, waited, let_pass, unidentified_since,
          turned_tick, decided_tick, unidentified, unidentified_sensor, decision, gives_way_to,

@@ -37,6 +37,7 @@ void EnterWorld(WorldEpoch epoch, const Pose& world_from_body, const VehicleOpti
   state.sensed.grid = {};
   state.heard.signals.LeaveWorld();
   state.sensed.objects = {};
+  state.sensed.doubt = {};
   state.heard.last_heard = {};
   state.heard.peers.LeaveWorld();
 }

@@ -22,6 +22,7 @@
 #include "services/vehicle/situation/encounter.h"
 #include "services/vehicle/situation/heard_places.h"
 #include "services/vehicle/situation/peer_relation.h"
+#include "services/vehicle/situation/sonar_trust.h"
 #include "services/vehicle/waiting.h"
 
 namespace giveway {
@@ -275,10 +276,12 @@ PeersNow Vehicle::AssessPeers(const OwnView& s) {
   const RelatedPeers related = RelatePeers(CarryForward(heard, s), s);
   const Boxes boxes = FindBoxes(related.views, s);
   JudgeEchoes(boxes.views, someone_lost, s, &state_->counters.trust);
+  JudgeSonar(boxes.views, s, &state_->sensed.doubt);
   return {.peers = boxes.views,
           .explained = related.explained,
           .someone_lost = someone_lost,
           .someone_doubted = related.someone_doubted,
+          .unheard = someone_lost ? FindUnheard(boxes.views, s, state_->sensed.doubt) : nullptr,
           .blocked_box = boxes.blocked,
           .encounters = UpdateEncounters(boxes.views, s)};
 }

@@ -22,6 +22,7 @@
 #include "services/vehicle/estimation/pose_keeping.h"
 #include "services/vehicle/estimation/range_view.h"
 #include "services/vehicle/estimation/signal_table.h"
+#include "services/vehicle/situation/sonar_trust.h"
 
 namespace giveway {
 
@@ -54,6 +55,7 @@ struct Sensed {
   RangeView ranges;
   ObstacleGrid grid;  // of imperfect ultrasonics
   SeenObjects objects;
+  SonarDoubt doubt;
 };
 
 // By radio. An encounter with a peer is remembered with the peer: estimation/peer_table.h.

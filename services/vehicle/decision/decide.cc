@@ -5,7 +5,6 @@
 #include "services/vehicle/decision/decision_rules.h"
 #include "services/vehicle/decision/lecture.h"
 #include "services/vehicle/decision/steering.h"
-#include "services/vehicle/situation/echo_trust.h"
 #include "services/vehicle/situation/encounter.h"
 
 namespace giveway {
@@ -21,7 +20,7 @@ bool IsAvoiding(Behaviour behaviour) {
 // The ladder: how much of what a decision wants to know is known.
 Mode ModeOf(const Situation& s) {
   if (s.own.leaving) return Mode::kLeaving;
-  if (s.own.blind_sensor >= 0 || s.own.lost || FindUnheard(s.near) != nullptr) return Mode::kHalt;
+  if (s.own.blind_sensor >= 0 || s.own.lost || s.near.unheard != nullptr) return Mode::kHalt;
   return s.movers.unidentified || s.near.someone_lost || s.near.someone_doubted
              ? Mode::kSensorOnly
              : Mode::kCooperative;

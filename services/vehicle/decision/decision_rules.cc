@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "services/vehicle/estimation/injected_mutants.h"
-#include "services/vehicle/situation/echo_trust.h"
 #include "services/vehicle/situation/echoes.h"
 #include "services/vehicle/situation/heard_places.h"
 #include "services/vehicle/situation/objects_ahead.h"
@@ -88,9 +87,8 @@ std::optional<Proposal> RangesStale(const Situation& s) {
     proposal.sensor = s.own.blind_sensor < static_cast<int>(kSensorCount) ? s.own.blind_sensor : -1;
     return proposal;
   }
-  const PeerView* const unheard = FindUnheard(s.near);
-  if (unheard == nullptr) return std::nullopt;
-  proposal.peer = unheard->peer->id;
+  if (s.near.unheard == nullptr) return std::nullopt;
+  proposal.peer = s.near.unheard->peer->id;
   return proposal;
 }
 

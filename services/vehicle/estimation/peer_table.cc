@@ -70,7 +70,6 @@ void PeerTable::Store(Peer* peer, const ReceivedBeacon& received, Tick tick) {
   peer->deadline_missed = false;
   peer->liveliness_lost = false;
   peer->left = beacon.mode == Mode::kLeaving;
-  peer->trust.unheard = {};
   if (beacon.tick < tick) {
     peer->beacon = beacon;
     peer->received = received.received;

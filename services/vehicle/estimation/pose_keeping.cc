@@ -21,8 +21,8 @@ constexpr double kHeadingGate = 10.8;
 // one before: five in a row came once in some 270 vehicle-hours of everything.textproto; eight are
 // a thousand times as rare.
 constexpr std::uint32_t kAgreeing = 8;
-// The weight of the newest fix in the share of those that do not fit; and what that share is taken
-// for at least: a pose can have been unsure for so long that any fix fits.
+// The weight of the newest fix in the share of wrong ones; and what that share is taken for at
+// least: a pose can have been unsure for so long that any fix fits.
 constexpr double kShareOfOne = 0.125;
 constexpr double kSomeWrong = 0.03;
 // How much of what fixes say may have come by turning wrongly.
@@ -91,6 +91,22 @@ bool Fits(const Innovation& innovation, const Odometry& odometry) {
   return !innovation.of_heading || SquaredHeadingOff(innovation, odometry) <= kHeadingGate;
 }
 
+// The share of wrong ones is by the newest, each by how probably it was wrong.
+void CountWrong(double probability, PoseKeeping* keeping) {
+  keeping->wrong_share += kShareOfOne * (probability - keeping->wrong_share);
+}
+
+// What is known of a sensor grows old with every fix that does not come, until either is as likely:
+// it did not work, and may not yet.
+void Forget(const PoseFix& fix, const PoseFixModel& fitted, const FixTaker& taker,
+            PoseKeeping* keeping) {
+  constexpr double kUnknown = 0.5;
+  const double known_for_s = TicksBetween(keeping->agreed, fix.tick) * taker.tick_s;
+  const double missing = std::max(0.0, known_for_s / fitted.every_s - 1);
+  const double forgotten = 1 - Exp(missing * Log(1 - kShareOfOne));
+  keeping->wrong_share = std::max(keeping->wrong_share, kUnknown * forgotten);
+}
+
 // A fix that fits may still be one that came off a wall: by chance, or because the pose is unsure
 // or wrong itself. With which probability it is right: right ones lie about the pose as a normal
 // distribution, wrong ones anywhere within the gate. The factors are the gate's area and width, in
@@ -123,20 +139,24 @@ void Correct(const Innovation& innovation, double probability, PoseFilter* filte
   }
 }
 
-void Believe(const Innovation& innovation, Tick tick, bool doubted, Odometry* odometry,
+void Believe(const Innovation& innovation, Tick tick, double probability, Odometry* odometry,
              PoseKeeping* keeping) {
   PoseFilter filter(*odometry, keeping->calibration);
-  // As many as must agree cannot all be wrong.
-  const double probability =
-      doubted ? 1 : ProbablyRight(innovation, keeping->wrong_share, *odometry);
-  if (doubted) {
-    const double off_rad = innovation.of_heading ? Magnitude(innovation.off_rad) : 0;
-    filter.Doubt(innovation.off_world, std::max(kDoubtedHeading_rad, off_rad));
-  }
   Correct(innovation, probability, &filter, odometry, keeping);
   keeping->agreed = tick;
   keeping->disagreement = {};
   ++keeping->fixes_used;
+}
+
+// As many as must agree cannot all be wrong.
+void BelieveAgainstWheels(const Innovation& innovation, Tick tick, Odometry* odometry,
+                          PoseKeeping* keeping) {
+  PoseFilter filter(*odometry, keeping->calibration);
+  const double off_rad = innovation.of_heading ? Magnitude(innovation.off_rad) : 0;
+  filter.Doubt(innovation.off_world, std::max(kDoubtedHeading_rad, off_rad));
+  *odometry = filter.TheOdometry();
+  keeping->calibration = filter.TheCalibration();
+  Believe(innovation, tick, 1, odometry, keeping);
 }
 
 // No wheels, however wrong their encoders, can have brought it there since a fix fitted last.
@@ -170,13 +190,15 @@ void Weigh(const PoseFix& fix, const RobotModel& profile, const FixTaker& taker,
     ++keeping->fixes_refused;
     return;
   }
+  Forget(fix, profile.pose_fix, taker, keeping);
   if (Fits(*innovation, *odometry)) {
-    Believe(*innovation, fix.tick, false, odometry, keeping);
-    keeping->wrong_share -= kShareOfOne * keeping->wrong_share;
+    const double right = ProbablyRight(*innovation, keeping->wrong_share, *odometry);
+    Believe(*innovation, fix.tick, right, odometry, keeping);
+    CountWrong(1 - right, keeping);
     return;
   }
   ++keeping->fixes_refused;
-  keeping->wrong_share += kShareOfOne * (1 - keeping->wrong_share);
+  CountWrong(1, keeping);
   if (IsOutOfReach(*innovation, profile, taker, *odometry, *keeping)) return;
   Disagreement& disagreement = keeping->disagreement;
   const std::uint32_t agreeing = AgreesWith(disagreement, *innovation) ? disagreement.fixes : 0;
@@ -184,7 +206,7 @@ void Weigh(const PoseFix& fix, const RobotModel& profile, const FixTaker& taker,
                   agreeing + 1};
   if (disagreement.fixes < kAgreeing) return;
   --keeping->fixes_refused;
-  Believe(*innovation, fix.tick, true, odometry, keeping);
+  BelieveAgainstWheels(*innovation, fix.tick, odometry, keeping);
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ struct PoseKeeping {
   std::uint32_t fixes_used = 0;     // since the process started
   std::uint32_t fixes_refused = 0;  // out of date, or not believed
   bool lost = false;
-  double wrong_share = 0;  // of recent fixes, those that did not fit; newer ones weigh more
+  double wrong_share = 0;  // of recent fixes, those that were wrong; newer ones weigh more
 };
 
 // True of a vehicle for which all this is done.

@@ -1,6 +1,6 @@
 // What a scan of the own ultrasonics has that the one before had not: transducers that do not work
 // show in the difference of two scans what no single reading does. Knows no peers and decides
-// nothing; what the difference is evidence of stands in situation/echo_trust.h.
+// nothing; what the difference is evidence of stands in situation/sonar_trust.h.
 #pragma once
 
 #include <array>

@@ -13,15 +13,8 @@
 #include "services/types/beacon.h"
 #include "services/types/counters.h"
 #include "services/types/vehicle_options.h"
-#include "services/vehicle/estimation/scan_change.h"
 
 namespace giveway {
-
-// That the own ultrasonics do not work near a peer that fell silent: FindUnheard.
-struct Unheard {
-  ScanNews shown_by = ScanNews::kNone;
-  std::uint32_t ticks = 0;  // that showed it, less those that showed something else
-};
 
 // What a vehicle holds against one peer.
 struct PeerTrust {
@@ -30,7 +23,6 @@ struct PeerTrust {
   std::uint32_t missing_ticks = 0;   // in a row that a sensor which must have heard it did not
   std::uint32_t standing_ticks = 0;  // in a row that it says it stands
   std::uint32_t closing_ticks = 0;   // of these, in a row, that its echo came nearer all the same
-  Unheard unheard;                   // since it fell silent
 };
 
 // Long enough to stand before it ends, at any speed of this fleet; short enough that an honest peer

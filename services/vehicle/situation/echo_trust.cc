@@ -15,14 +15,8 @@ constexpr double kReadingSigmas = 4;
 
 // A body that must be heard is not, so often in a row.
 constexpr std::uint32_t kMissingTicks = 5;
-// From a centre to its shell, of any robot of the fleet.
-constexpr double kBody_m = 0.5;
-// A world removes a silent body after remove_after_s, 5 s by default, and one that leaves at once.
-constexpr double kStillThere_s = 4;
-constexpr double kJustLeft_s = 1;
 // It stands, by its own word, for longer than any smoothed closing speed remembers its driving.
 constexpr double kStands_s = 1;
-constexpr double kTurning_rad_s = 0.02;  // slower is straight on, or standing
 // Longer than a beacon is fresh: within that it may have driven off without being heard to.
 constexpr double kCloses_s = 0.4;
 
@@ -72,116 +66,6 @@ bool IsMissed(const PeerView& view, std::uint32_t listening, const OwnView& s) {
   return false;
 }
 
-double SilentSeconds(const PeerView& view, const OwnView& s) {
-  return Seconds(Age(*view.peer, s.now, s.tick, s.options.tick_period));
-}
-
-// Where a peer can be by now that fell silent.
-struct Disc {
-  Vec2 centre_body;
-  double radius_m;
-};
-
-Disc WhereItIs(const PeerView& view, double silent_s, const OwnView& s) {
-  const Beacon& beacon = view.peer->beacon;
-  const Vec2 centre = InBody(s, beacon.world_from_body.position_world);
-  const double fastest_m_s = std::max(beacon.cruise_m_s, Magnitude(view.speed_m_s));
-  return {centre, fastest_m_s * silent_s + kPoseSlack_m +
-                      kErrorSigmas * (view.sigma_m + SigmaHeading(s.covariance) * Norm(centre))};
-}
-
-// True if it cannot be out of the cones ahead, which leave no gap between each other.
-bool MustBeAhead(const Disc& place, const OwnView& s) {
-  const Vec2 centre = place.centre_body;
-  const double inside_m =
-      s.cones.ahead_sine * centre.x - s.cones.ahead_cosine * Magnitude(centre.y);
-  return inside_m >= place.radius_m &&
-         Norm(centre) + place.radius_m <= s.options.profile.sonar_max_range_m;
-}
-
-// True if its body can be that near a transducer.
-bool CanBeWithin(const Disc& place, double range_m) {
-  return Norm(place.centre_body) - place.radius_m <= range_m + 2 * kBody_m;
-}
-
-// True if its body can be what that sensor heard until the tick before.
-bool CanHaveBeen(const Disc& place, std::size_t sensor, const OwnView& s) {
-  const double was_m = s.change.was_m[sensor];
-  const Vec2 echo_body =
-      s.options.profile.sonar[sensor].position_body + was_m * s.cones.of[sensor].axis_body;
-  const double within_m = place.radius_m + kBody_m + was_m * s.cones.half_sine;
-  return SquaredNorm(echo_body - place.centre_body) <= within_m * within_m;
-}
-
-// True of one that the world may have taken away just now: it left, or was silent for long.
-bool MayBeTakenAway(const PeerView& view, double silent_s) {
-  if (view.fresh) return false;
-  if (IsGone(*view.peer)) return silent_s <= kJustLeft_s;
-  return silent_s > kStillThere_s && silent_s <= 2 * kStillThere_s;
-}
-
-// True if an echo vanished that no body can have been that the world took away, as near as this
-// peer: whatever it was, the ultrasonics do not hear it any more.
-bool HasVanished(const Disc& place, std::span<const PeerView> views, const OwnView& s) {
-  for (const std::size_t i : BitsOf(s.change.echoes)) {
-    if (!CanBeWithin(place, s.change.was_m[i])) continue;
-    const bool taken_away = std::ranges::any_of(views, [&](const PeerView& other) {
-      const double silent_s = SilentSeconds(other, s);
-      return MayBeTakenAway(other, silent_s) && CanHaveBeen(WhereItIs(other, silent_s, s), i, s);
-    });
-    if (!taken_away) return true;
-  }
-  return false;
-}
-
-// True if working ultrasonics hear something else from tick to tick. Side cones of one that drives
-// straight on along a wall do not.
-bool MustHearChanges(const OwnView& s) {
-  if (Magnitude(s.turn_rad_s) > kTurning_rad_s) return true;
-  return Magnitude(s.speed_m_s) >= kStandingSpeed_m_s && (s.change.echoes & s.cones.amid) != 0;
-}
-
-// In how many ticks this scan shows that the ultrasonics do not work, near a silent peer: that they
-// do not hear it where it must be, or hear what no working ones do. What is not near need not be
-// heard; one that is silent for long may have been taken away. `exact`: they miss nothing.
-std::uint32_t TicksShown(const PeerView& view, std::span<const PeerView> views, bool exact,
-                         const OwnView& s) {
-  const double silent_s = SilentSeconds(view, s);
-  if (silent_s > kStillThere_s) return 0;
-  const Disc place = WhereItIs(view, silent_s, s);
-  const bool near = CanBeWithin(place, s.options.profile.sonar_max_range_m);
-  switch (s.change.news) {
-    case ScanNews::kAllClear:
-      if (exact && HasVanished(place, views, s)) return kMissingTicks;
-      return exact && MustBeAhead(place, s) ? 1 : 0;
-    case ScanNews::kSame:
-      return near && MustHearChanges(s) ? 1 : 0;
-    case ScanNews::kLeaps:  // one that turns past corners hears leaps as well
-      return exact && near && Magnitude(s.turn_rad_s) <= kTurning_rad_s ? 1 : 0;
-    default:
-      return 0;
-  }
-}
-
-// Counts up while scans show one and the same thing, and down while they show another: random
-// readings look like those of working ultrasonics now and then. What has been shown stays so while
-// scans continue like that.
-void NoteUnheard(const PeerView& view, std::span<const PeerView> views, bool exact,
-                 const OwnView& s) {
-  constexpr std::uint32_t kMost = 2 * kMissingTicks;
-  Unheard& unheard = view.peer->trust.unheard;
-  const ScanNews news = s.change.news;
-  if (!view.lost || news == ScanNews::kNone) return;
-  if (unheard.ticks > 0 && news != unheard.shown_by) {
-    --unheard.ticks;
-    return;
-  }
-  unheard.shown_by = news;
-  const std::uint32_t more = TicksShown(view, views, exact, s);
-  if (more == 0 && unheard.ticks < kMissingTicks) unheard.ticks = 0;
-  unheard.ticks = std::min(unheard.ticks + more, kMost);
-}
-
 // The only one whose body the echo of this sensor can be.
 bool IsItAlone(const PeerView& view, std::size_t sensor, std::span<const PeerView> views) {
   return std::all_of(views.begin(), views.end(), [&](const PeerView& other) {
@@ -223,14 +107,6 @@ std::uint32_t TicksOf(double time_s, const VehicleOptions& options) {
 
 }  // namespace
 
-const PeerView* FindUnheard(const PeersNow& near) {
-  if (!near.someone_lost) return nullptr;
-  const auto unheard = std::ranges::find_if(near.peers, [](const PeerView& view) {
-    return view.lost && view.peer->trust.unheard.ticks >= kMissingTicks;
-  });
-  return unheard == near.peers.end() ? nullptr : &*unheard;
-}
-
 void JudgeEchoes(std::span<const PeerView> views, bool someone_lost, const OwnView& s,
                  TrustCounters* counters) {
   if (s.run_state != RunState::kRunning || !s.new_tick) return;
@@ -240,11 +116,9 @@ void JudgeEchoes(std::span<const PeerView> views, bool someone_lost, const OwnVi
   // echo, are no evidence against a peer.
   const bool believes_sonar = !HasImperfectSonar(s.options);
   const std::uint32_t listening = s.cones.enabled & s.ranges.SpokeAt(s.tick);
-  const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   for (const PeerView& view : views) {
     PeerTrust& trust = view.peer->trust;
     if (!view.fresh) [[unlikely]] {
-      if (cooperative) NoteUnheard(view, views, believes_sonar, s);
       trust.missing_ticks = trust.standing_ticks = trust.closing_ticks = 0;
       continue;
     }

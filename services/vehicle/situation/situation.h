@@ -201,9 +201,10 @@ struct Encounters {
 struct PeersNow {
   // Those that are near, that cross the own path, or with which an encounter is active.
   std::span<const PeerView> peers;
-  std::uint32_t explained = 0;   // union of the `explains` of peers it is believed of
-  bool someone_lost = false;     // of all peers
-  bool someone_doubted = false;  // of `peers`
+  std::uint32_t explained = 0;        // union of the `explains` of peers it is believed of
+  bool someone_lost = false;          // of all peers
+  bool someone_doubted = false;       // of `peers`
+  const PeerView* unheard = nullptr;  // neither by radio nor by its echo: see sonar_trust.h
   std::optional<BlockedBox> blocked_box;
   Encounters encounters;
 };
@@ -237,6 +238,8 @@ struct Situation {
 
 // Below this a vehicle stands still, as the verdict defines it.
 inline constexpr double kStandingSpeed_m_s = 0.01;
+// Turning no faster, it drives straight on or stands.
+inline constexpr double kTurning_rad_s = 0.02;
 // The distance to a goal that there is none of.
 inline constexpr double kNoGoal_m = 1e6;
 // Kept between two shells beyond what geometry and uncertainty ask for.

@@ -160,7 +160,9 @@ TEST(BrainState, AnImageOfBeforeThePoseWasKeptIsTheSameBrainWithItsPoseBegunAnew
   Fate fate(5);
   Vehicle brain(DefaultOptions(), 42);
   for (std::uint32_t tick = 1; tick <= 40; ++tick) fate.Lead(&brain, tick);
-  std::string bytes = BytesOf(brain.State());
+  auto then = std::make_unique<VehicleState>(brain.State());
+  then->sensed.doubt = {};
+  std::string bytes = BytesOf(*then);
   constexpr std::size_t kPoseBytes =
       (2 + 6 + 3) * 8 + kPastPoses * (4 + 3 * 8) + (3 + 2) * 8 + 3 * 4 + 4 + 2 * 8 + 4 + 2 * 4 + 1;
   bytes.resize(bytes.size() - kPoseBytes);
@@ -232,20 +234,18 @@ TEST(BrainState, KeepsAHeadingThatFixesDoubt) {
 }
 
 TEST(BrainState, KeepsWhichSensesSeemedWrong) {
-  BrainBench bench(DefaultOptions());
-  bench.Step(ClearScan(0));
-  bench.Step(ClearScan(0), {BeaconOf(2, 1, {.position_world = {1, 0}})});
-  auto state = std::make_unique<VehicleState>(bench.Brain().State());
-  PeerTrust& trust = state->heard.peers.Peers()[0].trust;
+  Vehicle brain(DefaultOptions(), 42);
+  auto state = std::make_unique<VehicleState>(brain.State());
   const std::size_t before = BytesOf(*state).size();
-  trust.unheard = {ScanNews::kLeaps, 7};
+  state->sensed.doubt = {ScanNews::kLeaps, 7, Tick{12}};
   state->motion.pose.wrong_share = 0.25;
   const std::string bytes = BytesOf(*state);
   EXPECT_GT(bytes.size(), before);
   const auto same = StateFrom(bytes, DefaultOptions());
   ASSERT_NE(same, nullptr);
-  EXPECT_EQ(same->heard.peers.Peers()[0].trust.unheard.ticks, 7U);
-  EXPECT_EQ(same->heard.peers.Peers()[0].trust.unheard.shown_by, ScanNews::kLeaps);
+  EXPECT_EQ(same->sensed.doubt.ticks, 7U);
+  EXPECT_EQ(same->sensed.doubt.shown_by, ScanNews::kLeaps);
+  EXPECT_EQ(same->sensed.doubt.shown_at, Tick{12});
   EXPECT_EQ(same->motion.pose.wrong_share, 0.25);
   EXPECT_TRUE(AreBytesOf(bytes, *state));
 }

@@ -16,6 +16,41 @@ using test::kAhead;
 using test::Keeper;
 using test::kSigma_m;
 
+// Right fixes, perhaps none for a while, then wrong ones.
+struct Course {
+  int silent_from = 200;
+  int silent_to = 200;
+  int ticks = 0;
+};
+
+// In 400 courses. As the fault pose_fix_wrong of config/faults/everything.textproto: half of the
+// fixes come off a wall, 8 of their deviations to any side. Judged as the invariant "pose" does.
+int BreaksAmongWrongFixes(const Course& course) {
+  constexpr double kSlack_m = 0.1;
+  RobotModel profile = Fitted();
+  profile.pose_fix.every_s = 0.5;
+  int broken = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    Keeper keeper(profile, seed);
+    Random random(1000 + seed);
+    WheelSpeeds wheels;
+    for (int i = 0; i < course.ticks; ++i) {
+      if (i % 20 == 0) wheels = {random.Uniform(1, 5), random.Uniform(1, 5)};
+      keeper.Drive(wheels);
+      if (i % 10 != 0 || (i > course.silent_from && i < course.silent_to)) continue;
+      PoseFix fix = keeper.NoisyFix();
+      if (i > course.silent_from && random.Uniform(0, 1) < 0.5) {
+        const double side_rad = random.Uniform(-kPi, kPi);
+        fix.world_from_body.position_world =
+            fix.world_from_body.position_world + 8 * kSigma_m * Vec2{Cos(side_rad), Sin(side_rad)};
+      }
+      keeper.Give(fix);
+      broken += keeper.Off() > 3 * keeper.Sigma() + kSlack_m ? 1 : 0;
+    }
+  }
+  return broken;
+}
+
 // At the rim of the gate, where a wrong one is more likely.
 TEST(PoseKeeping, AFixFarOffHardlyCounts) {
   Keeper keeper(Fitted());
@@ -55,6 +90,29 @@ TEST(PoseKeeping, AFixAmongWrongOnesCountsForLess) {
   EXPECT_GT(moved(0), 0.15);
   EXPECT_LT(moved(6), 0.12);
   EXPECT_GT(moved(6, 30), 0.15);
+}
+
+// A sensor that was silent for long did not work, and may not work yet.
+TEST(PoseKeeping, AFixAfterALongSilenceCountsForLess) {
+  const auto moved = [](int silent_ticks) {
+    Keeper keeper(Fitted());
+    for (int i = 0; i < 20; ++i) keeper.Drive({});
+    keeper.Give(keeper.FixOf(keeper.tick));
+    for (int i = 0; i < silent_ticks; ++i) keeper.Drive({});
+    keeper.odometry = Odometry({}, {.xx_m2 = 0.01, .yy_m2 = 0.01});
+    keeper.Drive({});
+    keeper.Give(keeper.FixOf(keeper.tick, {0.2, 0}));
+    keeper.Drive({});
+    EXPECT_EQ(keeper.keeping.fixes_used, 2U);
+    return keeper.odometry.WorldFromBody().position_world.x;
+  };
+  EXPECT_GT(moved(18), 0.15);
+  EXPECT_LT(moved(20 * 30), 0.12);
+}
+
+// As where pose_fix_lost ends while pose_fix_wrong lasts.
+TEST(PoseKeeping, SaysHowFarItMayBeOffWhereFixesComeBackWrong) {
+  EXPECT_LE(BreaksAmongWrongFixes({.silent_to = 440, .ticks = 800}), 1);
 }
 
 TEST(PoseKeeping, AHeadingThatDoesNotFitIsDoubtedToo) {
@@ -99,30 +157,8 @@ TEST(PoseKeeping, AnOutlierIsDoubtedAndNotFollowed) {
   EXPECT_LT(keeper.Sigma(), 1.2 * sigma_m);
 }
 
-// As the fault pose_fix_wrong of config/faults/everything.textproto: half of the fixes come off a
-// wall, 8 of their deviations to any side. Judged as the invariant "pose" does.
 TEST(PoseKeeping, SaysHowFarItMayBeOffWhereHalfOfTheFixesAreWrong) {
-  constexpr double kSlack_m = 0.1;
-  int broken = 0;
-  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
-    Keeper keeper(Fitted(), seed);
-    Random random(1000 + seed);
-    WheelSpeeds wheels;
-    for (int i = 0; i < 800; ++i) {
-      if (i % 20 == 0) wheels = {random.Uniform(1, 5), random.Uniform(1, 5)};
-      keeper.Drive(wheels);
-      if (i % 10 != 0) continue;
-      PoseFix fix = keeper.NoisyFix();
-      if (i > 200 && random.Uniform(0, 1) < 0.5) {
-        const double side_rad = random.Uniform(-kPi, kPi);
-        fix.world_from_body.position_world =
-            fix.world_from_body.position_world + 8 * kSigma_m * Vec2{Cos(side_rad), Sin(side_rad)};
-      }
-      keeper.Give(fix);
-      broken += keeper.Off() > 3 * keeper.Sigma() + kSlack_m ? 1 : 0;
-    }
-  }
-  EXPECT_EQ(broken, 0);
+  EXPECT_EQ(BreaksAmongWrongFixes({.ticks = 800}), 0);
 }
 
 TEST(PoseKeeping, AFixWhereNoWheelsCanHaveBroughtItIsPassedOver) {
