@@ -178,8 +178,26 @@ TEST_F(SilentPeer, IsDrivenPastWhereAnotherWasNotHeardForAMoment) {
 TEST_F(SilentPeer, IsDrivenPastWhereUltrasonicsWereOffOnce) {
   HearFor(10, HearingAhead(1), Ahead(0, -1));
   HearFor(20, ClearScan(0), Ahead(0, -1));
-  HearFor(20, HearingAhead(1), Ahead(0, -1));
+  HearFor(5, HearingAhead(1), Ahead(0, -1));
+  EXPECT_EQ(bench_.Brain().State().sensed.doubt.shown_at, kNoTick) << "nothing is left of it";
+  HearFor(15, HearingAhead(1), Ahead(0, -1));
   StepOn(HearingAhead(1), 20);
+  EXPECT_FALSE(Halts());
+}
+
+// Silent for five seconds when it shows.
+TEST_F(SilentPeer, MayHaveBeenTakenAwayBeforeTheUltrasonicsFailed) {
+  FallSilent(2, 100);
+  Leap(10);
+  EXPECT_FALSE(Halts());
+}
+
+// By its speed it might be near by then.
+TEST_F(SilentPeer, WhoWasFarOffDoesNotComeNearByBeingSilent) {
+  BeginWithRadioReach(20);
+  HearFor(10, HearingAhead(1), Ahead(0, -8));
+  HearFor(5, ClearScan(0), Ahead(0, -8));
+  StepOn(ClearScan(0), 200);
   EXPECT_FALSE(Halts());
 }
 
@@ -201,6 +219,16 @@ TEST_F(SilentPeer, IsNotWhereOneThatWasTakenAwayVanishes) {
   StepOn(HearingAhead(2), 10);
   StepOn(ClearScan(0), 20);
   EXPECT_FALSE(Halts());
+}
+
+// What is there after twice as long was not taken away.
+TEST_F(SilentPeer, IsWhereAnotherVanishesThatHasBeenSilentForLong) {
+  HearFor(5, HearingAhead(2), BeaconOf(3, 0, {.position_world = {2, 0}}));
+  StepOn(HearingAhead(2), 170);
+  HearFor(10, HearingAhead(2), Ahead(0, -2));
+  StepOn(HearingAhead(2), 10);
+  StepOn(ClearScan(0), 20);
+  EXPECT_TRUE(Halts());
 }
 
 // A world takes bodies away.

@@ -3,6 +3,7 @@
 
 #include <initializer_list>
 #include <limits>
+#include <memory>
 
 #include "tests/support/brain_bench.h"
 
@@ -48,6 +49,18 @@ TEST(VehicleInARestartedWorld, IsToldWhereItStandsAndDrivesOnFromThere) {
   EXPECT_EQ(out.beacon.world_epoch, kNext);
   out = step({.roster = Placed(kNext, {})});
   EXPECT_EQ(out.beacon.world_from_body, kThere);
+}
+
+TEST(VehicleInARestartedWorld, DoubtsItsUltrasonicsNoLonger) {
+  Vehicle before(test::DefaultOptions(), 42);
+  before.Step({.now = std::chrono::milliseconds(50), .roster = Placed(WorldEpoch{7}, {})});
+  auto state = std::make_unique<VehicleState>(before.State());
+  state->sensed.doubt = {ScanNews::kLeaps, 7, Tick{3}};
+  Vehicle brain(test::DefaultOptions(), 42);
+  brain.Restore(*state);
+  EXPECT_EQ(brain.State().sensed.doubt.ticks, 7U);
+  brain.Step({.now = std::chrono::milliseconds(100), .roster = Placed(WorldEpoch{8}, {})});
+  EXPECT_EQ(brain.State().sensed.doubt.ticks, 0U);
 }
 
 TEST(VehicleInARestartedWorld, ARefusalOrAPoseThatIsNoneMovesNothing) {
