@@ -179,7 +179,8 @@ TEST_F(SilentPeer, IsDrivenPastWhereUltrasonicsWereOffOnce) {
   HearFor(10, HearingAhead(1), Ahead(0, -1));
   HearFor(20, ClearScan(0), Ahead(0, -1));
   HearFor(5, HearingAhead(1), Ahead(0, -1));
-  EXPECT_EQ(bench_.Brain().State().sensed.doubt.shown_by, ScanNews::kNone) << "nothing is left of it";
+  EXPECT_EQ(bench_.Brain().State().sensed.doubt.shown_by, ScanNews::kNone)
+      << "nothing is left of it";
   HearFor(15, HearingAhead(1), Ahead(0, -1));
   StepOn(HearingAhead(1), 20);
   EXPECT_FALSE(Halts());
