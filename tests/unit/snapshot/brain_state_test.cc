@@ -237,7 +237,7 @@ TEST(BrainState, KeepsWhichSensesSeemedWrong) {
   Vehicle brain(DefaultOptions(), 42);
   auto state = std::make_unique<VehicleState>(brain.State());
   const std::size_t before = BytesOf(*state).size();
-  state->sensed.doubt = {ScanNews::kLeaps, 7};
+  state->sensed.doubt = {ScanNews::kLeaps, 7, Tick{12}};
   state->motion.pose.wrong_share = 0.25;
   const std::string bytes = BytesOf(*state);
   EXPECT_GT(bytes.size(), before);
@@ -245,6 +245,7 @@ TEST(BrainState, KeepsWhichSensesSeemedWrong) {
   ASSERT_NE(same, nullptr);
   EXPECT_EQ(same->sensed.doubt.ticks, 7U);
   EXPECT_EQ(same->sensed.doubt.shown_by, ScanNews::kLeaps);
+  EXPECT_EQ(same->sensed.doubt.shown_at, Tick{12});
   EXPECT_EQ(same->motion.pose.wrong_share, 0.25);
   EXPECT_TRUE(AreBytesOf(bytes, *state));
 }
