@@ -6,12 +6,11 @@ cd "$GIVEWAY_ROOT"
 
 QUICK_STAGES=(format rules unit golden link crossing virtual)
 # With --all, stages that run processes in real time go in order, and those that only compute in the
-# background at idle priority, in two runs: the second needs the images. The last stages run alone. asan runs
-# in the container of asan13, asan_link and fuzz, which takes a given time, in that of debian13.
-# dev and tidy are for --full.
+# background at idle priority, in two runs: the second needs the images. The last stages run alone. asan and
+# fuzz run in the container of asan13, asan_link in that of debian13. dev and tidy are for --full.
 FIRST_STAGES=(unit golden images)
-THEN_STAGES=(link system attack manuals web containers)
-LAST_STAGES=(timed tsan debian13)
+THEN_STAGES=(link system attack manuals web containers debian13)
+LAST_STAGES=(timed tsan)
 BACKGROUND_STAGES=(format rules deploy tsan_build virtual defects model clang tidy_sample)
 BACKGROUND_IMAGES_STAGES=(asan13)
 
@@ -56,8 +55,8 @@ runs in the background, at idle priority. Stages:
            what tsan needs is compiled; link and one crossing under the thread sanitizer
   dev      every file of the services compiled alone, with the includes it names, warned of hidden names
   images   the images that asan13, debian13 and containers need
-  asan13   asan on Debian 13 with Fast DDS 3.1
-  debian13 asan_link, fuzz and system tests on Debian 13, and a mixed fleet
+  asan13   asan and fuzz on Debian 13 with Fast DDS 3.1
+  debian13 asan_link and system tests on Debian 13, and a mixed fleet
   containers  images, composed fleets of two and eight, and what may happen to them; needs root
 
   --all    every stage
@@ -300,7 +299,7 @@ tidy_test() {
 }
 
 stage_clang() {
-  prepare clang unit_tests golden_tests giveway-observer giveway-vehicle giveway-world fleetctl
+  prepare clang unit_tests golden_tests giveway-bench giveway-observer giveway-vehicle giveway-world fleetctl
   run_ctest clang unit "$(nproc)"
   run_ctest clang golden "$(nproc)"
 }

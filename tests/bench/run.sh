@@ -16,8 +16,8 @@ case $only in
   *) sed -n '2,9s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
 esac
 bin=build/release/bin
-[[ -x $bin/giveway-bench ]] || bash services/run.sh --setup-only
-[[ -x $bin/giveway-bench ]] || cmake --build build/release --target giveway-bench
+[[ -x $bin/fleetctl ]] || bash services/run.sh --setup-only
+build release giveway-bench
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 

@@ -36,7 +36,11 @@ run_of() {
     echo "FAILED  $* on Debian 13"
 }
 
-asan13() { run_of asan; }
+# Fuzzing takes a given time, and only computes.
+asan13() {
+  run_of asan
+  run_of fuzz
+}
 
 # in_background FILE COMMAND...: starts it as the process `meanwhile`, which writes to FILE and FILE.log. In a
 # process group of its own, so that it can be ended with all its children; without one it would ignore Ctrl-C.
@@ -68,29 +72,21 @@ stop_all() {
   engine_down
 }
 
-# It takes a given time, and only computes: at idle priority it delays no test that waits for a deadline.
-fuzz_meanwhile() {
-  chrt --idle --pid 0 "$BASHPID"
-  run_of fuzz
-}
-
+# The link tests come last: what they need of asan13's build folder may still be built in the background.
 debian13() {
-  local printed scripts=(crossing:intersection_yield crossing:peer_dies crossing:four_way rejoin
+  local scripts=(crossing:intersection_yield crossing:peer_dies crossing:four_way rejoin
     world_restart interrupt health qos)
   [[ ${GIVEWAY_FULL:-} != true ]] || scripts+=(repeat:intersection_yield repeat:intersection_equal
     bad_input impaired observers apply stopwatch why doctor tune replay kill_drill)
   export GIVEWAY_SUITE=trixie
   SUITE=$GIVEWAY_SUITE
   base_image "$SUITE"
-  run_of asan_link
-  printed=$(mktemp)
-  in_background "$printed" fuzz_meanwhile
   case_of "known vulnerabilities against the packages of Debian 13" debian13 --exposure
   bash "$HERE/debian13.sh" --system "${scripts[@]}" || true
   build_image vehicle
   build_image world
   bash "$HERE/mixed.sh" || true
-  end_of_background "$printed"
+  run_of asan_link
 }
 
 # drills DISCOVERY: a composed fleet whose vehicles discover each other so.

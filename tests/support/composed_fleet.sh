@@ -120,6 +120,15 @@ all_drive() { # COUNT
   [[ $count -eq $1 ]]
 }
 
+# Every running vehicle has matched the beacons of all others. One killed together with a discovery server
+# stays matched in those that knew it: the server that comes back does not know it, and ends nothing.
+all_matched() { # COUNT
+  local container
+  for container in $(running vehicle); do
+    [[ $(metric "$container" vehicle_peers_matched) -ge $(($1 - 1)) ]] || return 1
+  done
+}
+
 any_drives() {
   local container
   for container in $(running vehicle); do drives "$container" && return; done
@@ -151,15 +160,14 @@ await() {
   echo "$what: $((($(date +%s%N) - start_ns) / 1000000)) ms"
 }
 
-# holds WHAT SECONDS COMMAND...: true each time it is polled for so many seconds.
+# holds WHAT SECONDS COMMAND...: true each time it is polled for so many seconds, or again within one second,
+# which it says: a machine that stalls stops its vehicles for as long, by design. What is lost stays lost.
 holds() {
-  local what=$1 until=$((SECONDS + $2)) looks=0
+  local what=$1 until=$((SECONDS + $2)) looks=0 before=$failures
   shift 2
   while ((SECONDS < until)); do
-    "$@" || {
-      fail "$what: not at poll $looks"
-      return 0
-    }
+    "$@" || await "$what: lapsed at poll $looks, and again" 1 "$@"
+    ((failures == before)) || return 0
     looks=$((looks + 1))
     sleep 0.5
   done
