@@ -250,5 +250,27 @@ TEST(BrainState, KeepsWhichSensesSeemedWrong) {
   EXPECT_TRUE(AreBytesOf(bytes, *state));
 }
 
+// Its doubts stand where format 6 has the vehicle's own: by what and for how many ticks, a peer.
+TEST(BrainState, OfAnImageThatDoubtedUltrasonicsByPeerAllElseIsKept) {
+  Fate fate(5);
+  Vehicle brain(DefaultOptions(), 42);
+  for (std::uint32_t tick = 1; tick <= 40; ++tick) fate.Lead(&brain, tick);
+  auto then = std::make_unique<VehicleState>(brain.State());
+  const std::size_t peers = then->heard.peers.Peers().size();
+  ASSERT_GT(peers, 0U);
+  then->sensed.doubt = {};
+  then->motion.pose.wrong_share = 0.25;
+  std::string bytes = BytesOf(*then);
+  constexpr std::size_t kDoubtBytes = sizeof(ScanNews) + 4 + sizeof(Tick);
+  bytes.resize(bytes.size() - kDoubtBytes);
+  const std::string leaps_for_7_ticks = {static_cast<char>(ScanNews::kLeaps), 7, 0, 0, 0};
+  for (std::size_t peer = 0; peer < peers; ++peer) bytes += leaps_for_7_ticks;
+  bytes[0] = 5;
+  const auto state = StateFrom(bytes, DefaultOptions());
+  ASSERT_NE(state, nullptr);
+  EXPECT_EQ(BytesOf(*state), BytesOf(*then));
+  EXPECT_EQ(StateFrom(bytes + leaps_for_7_ticks, DefaultOptions()), nullptr);
+}
+
 }  // namespace
 }  // namespace giveway::test
