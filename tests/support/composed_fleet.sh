@@ -121,7 +121,7 @@ all_drive() { # COUNT
 }
 
 # Every running vehicle has matched the beacons of all others. One killed together with a discovery server
-# stays matched in those that knew it: the server that comes back does not know it, and ends nothing.
+# stays matched in those that knew it: the server that comes back does not know it (eProsima/Fast-DDS#4033).
 all_matched() { # COUNT
   local container
   for container in $(running vehicle); do
