@@ -48,7 +48,7 @@ runs in the background, at idle priority. Stages:
   attack   an intruder on the network of a fleet that drives: forged, fuzzed and flooding; needs root
   manuals  every command that README.md and the manuals show
   web      the observer's page in a browser, its recordings in the field's own readers, its metrics in Prometheus
-  asan     unit and golden under the address and undefined-behaviour sanitizers; fleetctl's with --full
+  asan     unit and golden under the address and undefined-behaviour sanitizers; all with --full
   asan_link link under the same
   fuzz     malformed scenarios, profiles, packets, beacons, scans and recordings in the asan build, a third of a minute each
   tsan_build, tsan
@@ -362,12 +362,13 @@ stage_attack() {
   check_lines parallel --will-cite "${attacks[@]}" ::: tests/attack/speak.sh tests/attack/admin_key.sh
 }
 
-# What runs on a developer's machine alone, fleetctl and the baselines, is a quarter of it: with --full.
+# Half of the time is with --full alone: what runs on a developer's machine, fleetctl and the baselines, and
+# fleets in many situations, of the same code that golden drives fleets of.
 stage_asan() {
   local units
   configure asan "${configuration[@]}"
   mapfile -t units < <(ctest --test-dir build/asan -N -L '^unit$' | sed -n 's/^ *Test *#[0-9]*: //p' |
-    { if $full; then cat; else grep -vxE 'unit_(fleetctl|baseline)'; fi; })
+    { if $full; then cat; else grep -vxE 'unit_(fleetctl|baseline|vehicle_in_world|virtual)'; fi; })
   [[ ${#units[@]} -gt 0 ]] || die "no unit test in build/asan"
   build asan "${units[@]}" golden_tests link_tests
   run_ctest asan unit "$(nproc)" -R "^($(IFS='|' && echo "${units[*]}"))\$"
