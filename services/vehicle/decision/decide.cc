@@ -42,6 +42,17 @@ std::optional<TurnLimit> TurnTooFast(const Steering& steering, const Situation& 
   return turn && turn->max_speed_m_s < s.own.speed_m_s ? turn : std::nullopt;
 }
 
+// True if it had better come out of a turn than stand as soon as it can: with brakes weaker than
+// the motors it turns far until it stands, and the rules measure how far is free straight ahead.
+// Where peers count on its braking, it brakes.
+bool Straightens(const Decision& decision, const Situation& s) {
+  const RobotModel& profile = s.own.options.profile;
+  if (profile.acceleration_m_s2 <= profile.deceleration_m_s2) return false;
+  if (s.own.options.behaviour != Behaviour::kCooperative) return false;
+  if (decision.rule != Rule::kObstacle && decision.rule != Rule::kObject) return false;
+  return OnlyObstaclesSlow(s);
+}
+
 // Drives to the goal no faster than `limit`, slowing so that it can stop there.
 Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
   const RobotModel& profile = s.own.options.profile;
@@ -80,7 +91,10 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
   action.steer_side = steering.side;
   action.away_rad = steering.away_rad;
   action.target = Drive(profile, {s.own.speed_m_s, s.own.turn_rad_s}, steering,
-                        {speed, may_turn, Seconds(s.own.options.tick_period)});
+                        {.limit_m_s = speed,
+                         .may_turn = may_turn,
+                         .tick_s = Seconds(s.own.options.tick_period),
+                         .straightens = Straightens(action.decision, s)});
   return action;
 }
 

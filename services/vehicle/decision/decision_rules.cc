@@ -185,6 +185,13 @@ std::optional<Proposal> KeepBoxClear(const Situation& s) {
                   .cause_tick = s.near.blocked_box->beacon_tick};
 }
 
+bool OnlyObstaclesSlow(const Situation& s) {
+  const std::optional<Proposal> other =
+      LowestOf<Leaving, NotRunning, RangesStale, Arrived, Lost, Unsure, Signal, GiveWay, NotGranted,
+               PeerLost, UnidentifiedMotion, KeepClear, KeepBoxClear>(s);
+  return !other || other->max_speed_m_s >= s.own.speed_m_s;
+}
+
 // The more informative reason comes first in each list.
 std::optional<Proposal> MostRestrictive(const Situation& s) {
   switch (s.own.options.behaviour) {

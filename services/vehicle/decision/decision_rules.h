@@ -54,4 +54,8 @@ std::optional<Proposal> Obstacle(const Situation& s);
 // informative reason names the decision. Empty if no rule proposes one.
 std::optional<Proposal> MostRestrictive(const Situation& s);
 
+// True if every rule but those for what stands still, Obstacle and Object, lets a cooperative
+// vehicle keep its speed.
+bool OnlyObstaclesSlow(const Situation& s);
+
 }  // namespace giveway

@@ -444,6 +444,19 @@ Rims WithinLimit(const RobotModel& profile, const Rims& now, Rims target, double
   return target;
 }
 
+// Out of a turn sharper than the target's. It takes a little longer to stand: a rim that keeps its
+// speed does not brake.
+Rims Straightened(const RobotModel& profile, const Rims& now, Rims target, double tick_s) {
+  const bool turns_left = now.left_m_s < now.right_m_s;
+  const auto [inner_now, outer_now] = std::minmax(now.left_m_s, now.right_m_s);
+  double& inner = turns_left ? target.left_m_s : target.right_m_s;
+  const double outer = turns_left ? target.right_m_s : target.left_m_s;
+  const double outer_after = RimAfterTick(profile, outer_now, outer, tick_s);
+  const double turns_on_m_s = std::max(0.0, outer - inner);
+  inner = std::max(inner, std::min(inner_now, outer_after - turns_on_m_s));
+  return target;
+}
+
 }  // namespace
 
 WheelSpeeds Drive(const RobotModel& profile, const Twist& now, const Steering& steering,
@@ -459,8 +472,9 @@ WheelSpeeds Drive(const RobotModel& profile, const Twist& now, const Steering& s
   const WheelSpeeds wheels = WheelsFromTwist(profile.drive, {on_the_spot ? 0 : forward, turn});
   const double wheel_m = profile.drive.wheel_radius_m;
   const Rims wanted = {wheels.left_rad_s * wheel_m, wheels.right_rad_s * wheel_m};
-  const Rims within = WithinLimit(profile, Rims::Of(now, profile.drive.axle_m), wanted,
-                                  pace.limit_m_s, pace.tick_s);
+  const Rims rims = Rims::Of(now, profile.drive.axle_m);
+  Rims within = WithinLimit(profile, rims, wanted, pace.limit_m_s, pace.tick_s);
+  if (pace.straightens) within = Straightened(profile, rims, within, pace.tick_s);
   return {within.left_m_s == wanted.left_m_s ? wheels.left_rad_s : within.left_m_s / wheel_m,
           within.right_m_s == wanted.right_m_s ? wheels.right_rad_s : within.right_m_s / wheel_m};
 }

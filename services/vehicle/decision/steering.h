@@ -40,12 +40,15 @@ struct Pace {
   double limit_m_s = 0;
   bool may_turn = true;
   double tick_s = 0;  // until the wheels are asked for something else
+  // What it brakes for stands still straight ahead: it comes out of a turn first.
+  bool straightens = false;
 };
 
 // Wheel speeds within a pace and for a steering, of a vehicle that moves as `now`: turns on the
 // spot before it drives where the error is large. A turn makes no vehicle faster than its pace, of
 // one that speeds up faster than it brakes either: that brakes first. One that may not turn stands
-// dead still when its limit is 0.
+// dead still when its limit is 0. Both rims brake alike, so that it turns until it stands, unless
+// it straightens: then the slower rim keeps its speed until the other is no faster.
 WheelSpeeds Drive(const RobotModel& profile, const Twist& now, const Steering& steering,
                   const Pace& pace);
 

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "services/types/math/math.h"
 #include "tests/support/brain_bench.h"
@@ -146,6 +149,71 @@ TEST(Steering, OutOfATurnItBrakesWithoutTurningOn) {
     EXPECT_LT(TwistFromWheels(weak.drive, wheels).forward_m_s, now.forward_m_s);
     EXPECT_LT(TwistFromWheels(weak.drive, wheels).turn_rad_s, now.turn_rad_s);
   }
+}
+
+// By how much it turns, and how far it comes, until it stands.
+struct Stop {
+  double turned_rad = 0;
+  double way_m = 0;
+};
+
+Stop StopOutOfATurn(const RobotModel& profile, bool straightens) {
+  Stop stop;
+  WheelSpeeds wheels = WheelsFromTwist(profile.drive, {0.8, 0.26});
+  for (int tick = 0; tick < 200; ++tick) {
+    const Twist now = TwistFromWheels(profile.drive, wheels);
+    stop.turned_rad += 0.05 * now.turn_rad_s;
+    stop.way_m += 0.05 * now.forward_m_s;
+    const Pace pace = {
+        .limit_m_s = 0, .may_turn = true, .tick_s = 0.05, .straightens = straightens};
+    const WheelSpeeds target = Drive(profile, now, {.heading_error_rad = 0}, pace);
+    wheels = {BrakedOrFaster(profile, wheels.left_rad_s, target.left_rad_s),
+              BrakedOrFaster(profile, wheels.right_rad_s, target.right_rad_s)};
+  }
+  EXPECT_EQ(wheels, WheelSpeeds{});
+  return stop;
+}
+
+// From one_lane 28, a robot with strong motors and weak brakes: it braked in a passage while it
+// turned, turned until it stood, and touched the wall next to it.
+TEST(Steering, ForWhatStandsAheadItComesOutOfItsTurnBeforeItStands) {
+  RobotModel weak = PioneerP3dx();
+  weak.acceleration_m_s2 = 2;
+  weak.deceleration_m_s2 = 0.2;
+  const Stop alike = StopOutOfATurn(weak, false);
+  const Stop straight = StopOutOfATurn(weak, true);
+  EXPECT_GT(alike.turned_rad, 0.4);
+  EXPECT_LT(straight.turned_rad, 0.07);
+  EXPECT_LT(straight.way_m, 1.12 * alike.way_m);
+}
+
+// The brain's wheels in a turn to the left, behind an echo straight ahead and, if there is one, a
+// peer that comes towards it.
+WheelSpeeds TargetInATurn(RobotModel profile, std::optional<double> peer_x_m) {
+  VehicleOptions options = test::DefaultOptions();
+  options.profile = std::move(profile);
+  test::BrainBench bench(options);
+  Outputs out;
+  for (std::uint32_t tick = 0; tick < 4; ++tick) {
+    RangeScan scan = test::ClearScan(0);
+    scan.wheels = {3, 3.5};
+    for (const int sensor : {3, 4}) test::SetEcho(&scan, sensor, 0.3);
+    std::vector<Beacon> heard;
+    if (peer_x_m) heard.push_back(test::BeaconOf(2, tick, {{*peer_x_m, 0}, kPi}));
+    out = bench.Step(scan, heard);
+  }
+  EXPECT_EQ(out.command.decision.rule, Rule::kObstacle);
+  return out.command.target;
+}
+
+TEST(Steering, StraightensOnlyWithWeakBrakesAndWhereNoPeerCountsOnThem) {
+  RobotModel weak = PioneerP3dx();
+  weak.acceleration_m_s2 = 2;
+  weak.deceleration_m_s2 = 0.2;
+  EXPECT_NEAR(TargetInATurn(weak, std::nullopt).left_rad_s, 3, 1e-9);
+  EXPECT_NEAR(TargetInATurn(weak, 2).left_rad_s, 3, 1e-9);
+  EXPECT_LT(TargetInATurn(weak, 0.9).left_rad_s, 2);
+  EXPECT_LT(TargetInATurn(PioneerP3dx(), std::nullopt).left_rad_s, 2);
 }
 
 // A wall near the left shoulder, at the range its cone reports; the goal is straight ahead. The
