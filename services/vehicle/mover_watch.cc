@@ -9,10 +9,11 @@ namespace {
 constexpr double kSharpTurn_rad_s = 0.25;
 constexpr std::uint32_t kTurnEchoTicks = 6;
 // How long a vehicle stands after the last unidentified motion; by id, so that two of them do not
-// start at the same time.
+// start at the same time. With what it takes to notice the motion and to report, less than the five
+// seconds in which a fleet drives again after its last fault.
 constexpr double kUnidentifiedHold_s = 1.0;
 constexpr double kUnidentifiedStagger_s = 0.5;
-constexpr std::uint32_t kUnidentifiedStaggerSteps = 8;
+constexpr std::uint32_t kUnidentifiedStaggerSteps = 6;
 
 }  // namespace
 
