@@ -222,7 +222,7 @@ bool IsKnown(std::uint32_t format) {
 void VisitDoubtsByPeer(auto& fields, Is<VehicleState> auto& state) {
   for ([[maybe_unused]] auto& peer : state.heard.peers.Peers()) {
     SonarDoubt none;
-    fields(none.shown_by, none.ticks);
+    fields(none);
   }
 }
 

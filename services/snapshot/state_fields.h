@@ -44,8 +44,8 @@ void Visit(auto& fields, Is<Encounter> auto& encounter) {
 }
 
 void Visit(auto& fields, Is<SonarDoubt> auto& doubt) {
-  auto& [shown_by, ticks, shown_at] = doubt;
-  fields(shown_by, ticks, shown_at);
+  auto& [shown_by, ticks] = doubt;
+  fields(shown_by, ticks);
 }
 
 void Visit(auto& fields, Is<PeerTrust> auto& trust) {

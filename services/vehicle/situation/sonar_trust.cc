@@ -118,28 +118,22 @@ std::uint32_t TicksShown(std::span<const PeerView> views, const OwnView& s) {
 
 // Counts up while scans show one and the same thing, and down while they show another. What has
 // been shown stays so while scans continue like that.
-void Note(ScanNews news, std::uint32_t shown, Tick tick, SonarDoubt* doubt) {
+void Note(ScanNews news, std::uint32_t shown, SonarDoubt* doubt) {
   constexpr std::uint32_t kMost = 2 * kShownTicks;
   if (doubt->ticks > 0 && news != doubt->shown_by) {
     if (--doubt->ticks == 0) *doubt = {};
     return;
   }
-  const bool was_shown = doubt->ticks >= kShownTicks;
-  if (shown == 0 && !was_shown) *doubt = {};
+  if (shown == 0 && doubt->ticks < kShownTicks) *doubt = {};
   if (shown == 0) return;
-  doubt->shown_by = news;
-  doubt->ticks = std::min(doubt->ticks + shown, kMost);
-  if (!was_shown && doubt->ticks >= kShownTicks) doubt->shown_at = tick;
+  *doubt = {news, std::min(doubt->ticks + shown, kMost)};
 }
 
-// Near when it fell silent, and not silent for so long before the ultrasonics were shown not to
-// work that the world may have taken it away.
-bool MayBeNear(const PeerView& view, Tick shown_at, const OwnView& s) {
-  const double silent_s = SilentSeconds(view, s);
-  const double since_s = Seconds(TicksBetween(shown_at, s.tick) * s.options.tick_period);
-  if (silent_s - since_s > kStillThere_s) return false;
-  return CanBeWithin(WhereItIs(view, std::min(silent_s, kStillThere_s), s),
-                     s.options.profile.sonar_max_range_m);
+// Near when it fell silent. However long ago that was: one without ultrasonics does not see that
+// the world has taken it away.
+bool MayBeNear(const PeerView& view, const OwnView& s) {
+  const double silent_s = std::min(SilentSeconds(view, s), kStillThere_s);
+  return CanBeWithin(WhereItIs(view, silent_s, s), s.options.profile.sonar_max_range_m);
 }
 
 }  // namespace
@@ -148,14 +142,14 @@ void JudgeSonar(std::span<const PeerView> views, const OwnView& s, SonarDoubt* d
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   if (!cooperative || s.run_state != RunState::kRunning || !s.new_tick) return;
   if (s.change.news == ScanNews::kNone) return;
-  Note(s.change.news, TicksShown(views, s), s.tick, doubt);
+  Note(s.change.news, TicksShown(views, s), doubt);
 }
 
 const PeerView* FindUnheard(std::span<const PeerView> views, const OwnView& s,
                             const SonarDoubt& doubt) {
   if (doubt.ticks < kShownTicks) return nullptr;
   const auto unheard = std::ranges::find_if(
-      views, [&](const PeerView& view) { return view.lost && MayBeNear(view, doubt.shown_at, s); });
+      views, [&](const PeerView& view) { return view.lost && MayBeNear(view, s); });
   return unheard == views.end() ? nullptr : &*unheard;
 }
 

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <span>
 
-#include "services/types/ids.h"
 #include "services/vehicle/estimation/scan_change.h"
 #include "services/vehicle/situation/situation.h"
 
@@ -16,7 +15,6 @@ namespace giveway {
 struct SonarDoubt {
   ScanNews shown_by = ScanNews::kNone;
   std::uint32_t ticks = 0;  // that showed it, less those that showed something else
-  Tick shown_at = kNoTick;  // when there were enough of them
 };
 
 // Of a cooperative vehicle. Ultrasonics that do not work show in scans that are

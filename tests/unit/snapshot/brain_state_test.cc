@@ -237,7 +237,7 @@ TEST(BrainState, KeepsWhichSensesSeemedWrong) {
   Vehicle brain(DefaultOptions(), 42);
   auto state = std::make_unique<VehicleState>(brain.State());
   const std::size_t before = BytesOf(*state).size();
-  state->sensed.doubt = {ScanNews::kLeaps, 7, Tick{12}};
+  state->sensed.doubt = {ScanNews::kLeaps, 7};
   state->motion.pose.wrong_share = 0.25;
   const std::string bytes = BytesOf(*state);
   EXPECT_GT(bytes.size(), before);
@@ -245,7 +245,6 @@ TEST(BrainState, KeepsWhichSensesSeemedWrong) {
   ASSERT_NE(same, nullptr);
   EXPECT_EQ(same->sensed.doubt.ticks, 7U);
   EXPECT_EQ(same->sensed.doubt.shown_by, ScanNews::kLeaps);
-  EXPECT_EQ(same->sensed.doubt.shown_at, Tick{12});
   EXPECT_EQ(same->motion.pose.wrong_share, 0.25);
   EXPECT_TRUE(AreBytesOf(bytes, *state));
 }
@@ -261,7 +260,7 @@ TEST(BrainState, OfAnImageThatDoubtedUltrasonicsByPeerAllElseIsKept) {
   then->sensed.doubt = {};
   then->motion.pose.wrong_share = 0.25;
   std::string bytes = BytesOf(*then);
-  constexpr std::size_t kDoubtBytes = sizeof(ScanNews) + 4 + sizeof(Tick);
+  constexpr std::size_t kDoubtBytes = sizeof(ScanNews) + 4;
   bytes.resize(bytes.size() - kDoubtBytes);
   const std::string leaps_for_7_ticks = {static_cast<char>(ScanNews::kLeaps), 7, 0, 0, 0};
   for (std::size_t peer = 0; peer < peers; ++peer) bytes += leaps_for_7_ticks;

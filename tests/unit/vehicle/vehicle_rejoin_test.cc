@@ -55,7 +55,7 @@ TEST(VehicleInARestartedWorld, DoubtsItsUltrasonicsNoLonger) {
   Vehicle before(test::DefaultOptions(), 42);
   before.Step({.now = std::chrono::milliseconds(50), .roster = Placed(WorldEpoch{7}, {})});
   auto state = std::make_unique<VehicleState>(before.State());
-  state->sensed.doubt = {ScanNews::kLeaps, 7, Tick{3}};
+  state->sensed.doubt = {ScanNews::kLeaps, 7};
   Vehicle brain(test::DefaultOptions(), 42);
   brain.Restore(*state);
   EXPECT_EQ(brain.State().sensed.doubt.ticks, 7U);
