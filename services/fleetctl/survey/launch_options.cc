@@ -71,6 +71,7 @@ LaunchOptions ReadLaunchOptions(const Started& started, std::vector<std::string>
   launch.domain = UintOr(0, started.Value("--domain"));
   launch.interface = started.Value("--interface").value_or(launch.interface);
   launch.qos_file = started.Value("--qos").value_or("");
+  launch.leaves_out_shared_memory = started.Value("--leave-out") == "shared_memory";
   launch.scenario = started.Value("--scenario").value_or("");
   launch.partition_free = !launch.is_world && started.Switch("--partition-free");
   const auto impair = launch.is_world ? std::nullopt : started.Value("--impair");

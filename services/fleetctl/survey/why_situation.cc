@@ -68,7 +68,7 @@ std::optional<std::int64_t> ParticipantNumber(const ProcessSituation& process, q
 }
 
 bool UsesSharedMemory(const ProcessSituation& process) {
-  if (!process.profiles) return false;
+  if (!process.profiles || process.launch.leaves_out_shared_memory) return false;
   const auto& all = process.profiles->participations;
   const auto found = std::ranges::find(all, kParticipantProfile, &qos::Participation::profile);
   return found != all.end() && std::ranges::any_of(found->transports, [&](const auto& named) {

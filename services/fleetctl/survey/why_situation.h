@@ -38,6 +38,7 @@ struct LaunchOptions {
   std::string qos_file;  // as the process sees it; absolute
   std::string scenario;
   bool partition_free = false;
+  bool leaves_out_shared_memory = false;  // that transport of its set
   // Of the scenario.
   std::string area = "main";
   std::uint32_t fleet_size = 2;

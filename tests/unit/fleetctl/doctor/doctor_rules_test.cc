@@ -107,6 +107,9 @@ TEST(Doctor, FindsAHostsNetworkWithoutItsSharedMemory) {
   host.processes[1].shared_memory = FileIdentity{23, 1};
   EXPECT_EQ(Only(host).rule, "shared_memory_apart");
   EXPECT_THAT(Only(host).remedy, HasSubstr("--ipc=host"));
+  host.processes[1].launch.leaves_out_shared_memory = true;
+  EXPECT_THAT(RulesOf(host), IsEmpty()) << "its shared memory was deleted: it keeps to UDP";
+  host.processes[1].launch.leaves_out_shared_memory = false;
   for (ProcessSituation& process : host.processes) process.profiles = SetWith();
   EXPECT_THAT(RulesOf(host), IsEmpty()) << "over UDP they hear each other";
 }

@@ -67,8 +67,9 @@ class MadeProc : public testing::Test {
     std::string name = testing::TempDir() + "why_proc_XXXXXX";
     folder_ = mkdtemp(name.data());
     Write("stat", "cpu 1 2 3\nbtime 1000\n");
-    Write("42/cmdline", Zeros({"/opt/bin/giveway-vehicle", "--scenario", "town", "--domain", "7",
-                               "--qos", "mine.xml", "--id=3", "--partition-free"}));
+    Write("42/cmdline",
+          Zeros({"/opt/bin/giveway-vehicle", "--scenario", "town", "--domain", "7", "--qos",
+                 "mine.xml", "--id=3", "--partition-free", "--leave-out", "shared_memory"}));
     Write("42/environ", Zeros({"GIVEWAY_INTERFACE=eth0", "GIVEWAY_IMPAIR=loss=1", "HOME=/"}));
     Write("42/stat", "42 (a) vehicle) T 1 42 42 0 -1 0 0 0 0 0 0 0 0 0 20 0 7 0 500 0 0\n");
     Write("42/status", "Name:\tgiveway-vehicle\nNSpid:\t42\t5\n");
@@ -168,6 +169,7 @@ TEST_F(MadeProc, WhatItWasToldIsOfTheCommandLineElseOfTheEnvironment) {
   EXPECT_EQ(launch.domain, 7U);
   EXPECT_EQ(launch.interface, "eth0");
   EXPECT_TRUE(launch.partition_free);
+  EXPECT_TRUE(launch.leaves_out_shared_memory);
   ASSERT_EQ(launch.impairment.rules.size(), 1U);
   EXPECT_EQ(launch.impairment.rules[0].loss, 1);
   EXPECT_EQ(launch.qos_file, (folder_ / "work/mine.xml").string());
