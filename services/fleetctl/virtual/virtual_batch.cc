@@ -1,6 +1,7 @@
 #include "services/fleetctl/virtual/virtual_batch.h"
 
 #include <algorithm>
+#include <array>
 #include <mutex>
 #include <utility>
 
@@ -12,15 +13,27 @@ namespace {
 // A sum over the seeds is the same in any order.
 std::uint64_t OfOneRun(std::uint32_t seed, std::uint64_t hash) { return Random(hash, seed).Next(); }
 
-// The selection must not depend on which thread was first.
-constexpr std::size_t kViolationsShown = 100;
+// Of each invariant, in its first seeds: one contact in ten thousand runs is among them.
+constexpr std::size_t kShownOfEach = 20;
 
-void KeepFirst(std::vector<SeedViolation>* violations) {
-  std::ranges::stable_sort(*violations, {}, &SeedViolation::seed);
-  if (violations->size() > kViolationsShown) violations->resize(kViolationsShown);
+std::size_t NumberOf(const SeedViolation& violation) {
+  std::size_t number = 0;
+  while (violation.what.invariant != sim::Name(static_cast<sim::Invariant>(number))) ++number;
+  return number;
 }
 
-// Those that make the run fail come first, each kind once.
+// Contacts first. The selection must not depend on which thread was first.
+void KeepFirst(std::vector<SeedViolation>* violations) {
+  std::ranges::sort(*violations, {}, [](const SeedViolation& violation) {
+    return std::pair(NumberOf(violation), violation.seed);
+  });
+  std::array<std::size_t, sim::kInvariantCount> count{};
+  std::erase_if(*violations, [&count](const SeedViolation& violation) {
+    return ++count[NumberOf(violation)] > kShownOfEach;
+  });
+}
+
+// Each kind once.
 std::vector<SeedViolation> FirstOf(std::uint32_t seed, const sim::VirtualOutcome& outcome) {
   std::vector<SeedViolation> first;
   for (const auto* violations : {&outcome.first, &outcome.noted}) {
@@ -52,7 +65,9 @@ void BatchTotals::Add(std::uint32_t seed, const sim::VirtualOutcome& outcome,
   }
   if (missed) ++unmet;
   for (SeedViolation& first : FirstOf(seed, outcome)) first_violations.push_back(std::move(first));
-  if (first_violations.size() > 2 * kViolationsShown) KeepFirst(&first_violations);
+  if (first_violations.size() > 2 * sim::kInvariantCount * kShownOfEach) {
+    KeepFirst(&first_violations);
+  }
   vehicles += outcome.vehicles;
   arrived += outcome.arrived;
   vehicle_seconds += outcome.vehicle_seconds;

@@ -29,8 +29,8 @@ struct BatchTotals {
   sim::TrafficFigures traffic;
   TrustCounters trust;
   std::uint64_t hash = 0;
-  // The first violation of each invariant for each seed; of the first seeds, as many as a report
-  // shows.
+  // The first violation of each invariant for each seed, by invariant and seed; of the first seeds,
+  // as many as a report shows.
   std::vector<SeedViolation> first_violations;
   std::uint32_t vehicles = 0;
   std::uint32_t arrived = 0;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -80,6 +81,23 @@ TEST(VirtualBatch, ARunInWhichEveryVehicleCrashesAtOnceDoesNotPass) {
   EXPECT_EQ(totals.violations[static_cast<std::size_t>(sim::Invariant::kArrival)], 2U);
   options.faults.pop_back();
   EXPECT_TRUE(RunBatch(CaseMaker(options), {1, 2}, 1, kGoOn).failing_seeds.empty());
+}
+
+// Regression: the list was cut off after a hundred entries of the first seeds, and the only contact
+// of a batch was not among them.
+TEST(VirtualBatch, TheOnlyContactOfManyRunsIsListed) {
+  BatchTotals totals;
+  for (std::uint32_t seed = 1; seed <= 1000; ++seed) {
+    sim::VirtualOutcome outcome;
+    outcome.noted = {{.invariant = sim::Invariant::kDelay}, {.invariant = sim::Invariant::kClaim}};
+    if (seed == 900) outcome.first = {{.invariant = sim::Invariant::kContact, .tick = Tick{7}}};
+    totals.Add(seed, outcome, false);
+  }
+  ASSERT_FALSE(totals.first_violations.empty());
+  EXPECT_LE(totals.first_violations.size(), 600U);
+  EXPECT_TRUE(std::ranges::any_of(totals.first_violations, [](const SeedViolation& violation) {
+    return violation.seed == 900 && violation.what.invariant == "contact";
+  }));
 }
 
 // Regression: in open_fleet the vehicles after the eighth get the places, and so the goals, of
