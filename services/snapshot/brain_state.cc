@@ -226,13 +226,20 @@ void VisitDoubtsByPeer(auto& fields, Is<VehicleState> auto& state) {
   }
 }
 
+// Format 6 had the tick since which the ultrasonics were doubted. It is not taken on either.
+void VisitTickOfDoubt(auto& fields) {
+  Tick none = kNoTick;
+  fields(none);
+}
+
 // What formats after the second have at the end.
 void VisitAppended(auto& fields, Is<VehicleState> auto& state) {
   if (fields.Has(StateFormat::kWithGrid)) fields(state.sensed.grid);
   if (fields.Has(StateFormat::kWithDoubtedHeading)) fields(state.motion.pose.disagreement.off_rad);
   if (fields.Has(StateFormat::kWithWrongFixes)) fields(state.motion.pose.wrong_share);
-  if (fields.Has(StateFormat::kWithDoubtedSonar)) {
+  if (fields.Has(StateFormat::kWithTimedDoubt)) {
     fields(state.sensed.doubt);
+    if (!fields.Has(StateFormat::kWithDoubtedSonar)) VisitTickOfDoubt(fields);
   } else if (fields.Has(StateFormat::kWithWrongFixes)) {
     VisitDoubtsByPeer(fields, state);
   }

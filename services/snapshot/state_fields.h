@@ -164,7 +164,8 @@ enum class StateFormat : std::uint32_t {
   kWithGrid = 3,
   kWithDoubtedHeading = 4,
   kWithWrongFixes = 5,
-  kWithDoubtedSonar = 6
+  kWithTimedDoubt = 6,
+  kWithDoubtedSonar = 7
 };
 // Of a brain that has taken nothing into its obstacle grid, and to which neither fixes nor
 // ultrasonics seemed wrong; of others it is one of those after it.

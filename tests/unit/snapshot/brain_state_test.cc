@@ -249,7 +249,34 @@ TEST(BrainState, KeepsWhichSensesSeemedWrong) {
   EXPECT_TRUE(AreBytesOf(bytes, *state));
 }
 
-// Its doubts stand where format 6 has the vehicle's own: by what and for how many ticks, a peer.
+// Format 6 had the tick of a doubt behind it.
+TEST(BrainState, OfAnImageThatSaysSinceWhenUltrasonicsWereDoubtedAllElseIsKept) {
+  Vehicle brain(DefaultOptions(), 42);
+  auto then = std::make_unique<VehicleState>(brain.State());
+  then->motion.pose.wrong_share = 0.25;
+  then->sensed.doubt = {ScanNews::kLeaps, 7};
+  std::string bytes = BytesOf(*then);
+  ASSERT_EQ(bytes[0], 7);
+  bytes[0] = 6;
+  EXPECT_EQ(StateFrom(bytes, DefaultOptions()), nullptr);
+  bytes.append("\x05\0\0\0", 4);
+  const auto state = StateFrom(bytes, DefaultOptions());
+  ASSERT_NE(state, nullptr);
+  EXPECT_EQ(BytesOf(*state), BytesOf(*then));
+}
+
+// Of a brain that doubted nothing then, as most: a recording of it replays.
+TEST(BrainState, AnImageOfFormatSixWithoutADoubtIsTheSameBrain) {
+  Vehicle brain(DefaultOptions(), 42);
+  auto then = std::make_unique<VehicleState>(brain.State());
+  then->motion.pose.wrong_share = 0.25;
+  std::string bytes = BytesOf(*then);
+  bytes[0] = 6;
+  bytes.append(4, '\0');
+  EXPECT_TRUE(AreBytesOf(bytes, *then));
+}
+
+// Its doubts stand where later formats have the own: by what and for how many ticks, a peer.
 TEST(BrainState, OfAnImageThatDoubtedUltrasonicsByPeerAllElseIsKept) {
   Fate fate(5);
   Vehicle brain(DefaultOptions(), 42);
