@@ -43,6 +43,10 @@ void AddFlags(Service service, CommandLine* line) {
     line->Add("--impair", "RULES",
               "impairs what it receives, in place of the scenario's rules: loss=0.1,delay=20ms, or "
               "none, or @FILE; link/impairment/README.md lists the keys");
+    line->Add(
+        "--impair-since", "SECONDS",
+        "internal: what the times of its rules count from, on the steady clock; set by a soak\n"
+        "that restarts it");
     line->AddSwitch("--stay", "when the run has ended, halt and ask the next world for a place");
     line->AddSwitch("--partition-free",
                     "publishes beacons without a partition, too, for foreign tools");
@@ -89,12 +93,15 @@ void AddFlags(Service service, CommandLine* line) {
 }
 
 std::optional<Impairment> ReadImpairment(FlagValues* values) {
+  constexpr double kMost_s = 1e9;
   const auto text = values->Text("--impair");
+  const auto since_s = values->Number("--impair-since", {0, kMost_s, "s"});
   if (!text) return std::nullopt;
   ParsedImpairment parsed = ParseImpairment(*text);
   for (ImpairTextProblem& problem : parsed.problems) {
     values->AddError("--impair", std::move(problem.message), std::move(problem.remedy));
   }
+  if (since_s) parsed.impairment.started = FromSeconds(*since_s);
   return std::move(parsed.impairment);
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "services/types/ids.h"
+#include "services/types/time.h"
 
 namespace giveway {
 
@@ -59,6 +60,9 @@ struct Impairment {
   std::optional<std::uint32_t> seed;  // absent: the scenario's
   // Of those that fit a packet the last counts: write the general one first.
   std::vector<ImpairmentRule> rules;
+  // What the rules' times count from, of a process that joins a run under way. Absent: the start
+  // signal, once it is heard.
+  std::optional<SteadyTime> started;
 
   friend bool operator==(const Impairment&, const Impairment&) = default;
 };

@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include "services/fleetctl/args/qos_files.h"
+#include "services/runtime/process.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -373,7 +374,10 @@ MemberCommand ProcessFaults::CommandNow(MemberId member) const {
   if (member.kind != MemberKind::kVehicle) return command;
   DropFlag(&command.child.words, "--impair");
   const std::string impair = tools_.impairment_since(VehicleId{member.number}, time_s_);
-  if (!impair.empty()) SetFlag(&command.child.words, "--impair", impair);
+  if (impair.empty()) return command;
+  SetFlag(&command.child.words, "--impair", impair);
+  // Else they would count from when it has joined, which takes seconds.
+  SetFlag(&command.child.words, "--impair-since", fmt::format("{:.6f}", Seconds(SteadyNow())));
   return command;
 }
 

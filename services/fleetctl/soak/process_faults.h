@@ -33,8 +33,8 @@ struct FaultTools {
   std::map<MemberId, SteppableClock> clocks;
   std::string attacker;       // the program of the intruder; empty: no such faults
   PrivateShm* shm = nullptr;  // null: no shared memory faults. Outlives the faults
-  // The --impair of a vehicle that is started so many seconds after the start signal: its clock of
-  // the rules starts when it joins. Empty: nothing is impaired any more.
+  // The --impair of a vehicle that is started so many seconds after the start signal, with times
+  // that count from then. Empty: nothing is impaired any more.
   std::function<std::string(VehicleId, double)> impairment_since;
 };
 

@@ -69,7 +69,8 @@ struct ChannelModel::Draws {
   double loss, turn, burst, jitter, hold, copy, copy_jitter, corrupt, bit;
 };
 
-ChannelModel::ChannelModel(Impairment impairment) : impairment_(std::move(impairment)) {
+ChannelModel::ChannelModel(Impairment impairment)
+    : impairment_(std::move(impairment)), started_(impairment_.started) {
   GIVEWAY_CHECK(impairment_.seed.has_value());
 }
 

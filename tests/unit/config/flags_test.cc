@@ -164,6 +164,10 @@ TEST(Flags, OnlyAVehicleIsImpairedAndOnlyIfAsked) {
   ASSERT_TRUE(impaired && impaired->rules.size() == 1);
   EXPECT_EQ(impaired->rules[0].loss, 0.25);
   EXPECT_EQ(impaired->seed, 3U);
+  EXPECT_FALSE(impaired->started);
+  std::vector<const char*> since = words;
+  since.insert(since.end(), {"--impair-since", "12345.678901"});
+  EXPECT_EQ(std::get<ServiceFlags>(Vehicle(since)).impair->started, SteadyTime(12'345'678'901'000));
   CaptureStderr();
   EXPECT_EQ(std::get<int>(World(words)), 2);
   EXPECT_THAT(GetCapturedStderr(), HasSubstr("--impair"));

@@ -236,6 +236,24 @@ TEST(ChannelModel, ARuleWithTimesHoldsFromOneToTheOtherAndNotBeforeTheStart) {
   EXPECT_EQ(model.Counters().dropped_loss, 2U);
 }
 
+// Regression: in a soak the rules of a vehicle that restarts counted from when it had joined,
+// seconds late: short faults were over when they should have started to act, and others acted while
+// the fleet was to heal.
+TEST(ChannelModel, OfOneThatRestartsTimesCountFromWhatItIsTold) {
+  ImpairmentRule rule{.loss = 1};
+  rule.from_s = 1;
+  rule.to_s = 2;
+  Impairment impairment = Of({rule});
+  impairment.started = seconds(10);
+  ChannelModel model(impairment);
+  const auto heard = [&](Nanoseconds at) { return !model.Decide(kThree, kBytes, at).dropped; };
+  EXPECT_TRUE(heard(milliseconds(10'500)));
+  EXPECT_FALSE(heard(milliseconds(11'500)));  // it has not joined yet
+  model.Start(milliseconds(11'800));
+  EXPECT_TRUE(heard(milliseconds(12'500)));
+  EXPECT_EQ(model.Started(), SteadyTime(seconds(10)));
+}
+
 TEST(ChannelModel, ARuleOpenAtOneEndHoldsFromEverOrForEver) {
   ImpairmentRule until{.loss = 1};
   until.to_s = 1;
