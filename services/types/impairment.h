@@ -60,7 +60,7 @@ struct Impairment {
   std::optional<std::uint32_t> seed;  // absent: the scenario's
   // Of those that fit a packet the last counts: write the general one first.
   std::vector<ImpairmentRule> rules;
-  // What the rules' times count from, of a process that joins a run under way. Absent: the start
+  // What the rules' times count from, of a process that joins a run late. Absent: the start
   // signal, once it is heard.
   std::optional<SteadyTime> started;
 
