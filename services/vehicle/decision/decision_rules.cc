@@ -185,10 +185,18 @@ std::optional<Proposal> KeepBoxClear(const Situation& s) {
                   .cause_tick = s.near.blocked_box->beacon_tick};
 }
 
+namespace {
+
+// Of a cooperative vehicle, without the rules for what stands still.
+std::optional<Proposal> LowestBesidesObstacles(const Situation& s) {
+  return LowestOf<Leaving, NotRunning, RangesStale, Arrived, Lost, Unsure, Signal, GiveWay,
+                  NotGranted, PeerLost, UnidentifiedMotion, KeepClear, KeepBoxClear>(s);
+}
+
+}  // namespace
+
 bool OnlyObstaclesSlow(const Situation& s) {
-  const std::optional<Proposal> other =
-      LowestOf<Leaving, NotRunning, RangesStale, Arrived, Lost, Unsure, Signal, GiveWay, NotGranted,
-               PeerLost, UnidentifiedMotion, KeepClear, KeepBoxClear>(s);
+  const std::optional<Proposal> other = LowestBesidesObstacles(s);
   return !other || other->max_speed_m_s >= s.own.speed_m_s;
 }
 
@@ -205,9 +213,7 @@ std::optional<Proposal> MostRestrictive(const Situation& s) {
     case Behaviour::kCooperative:
       break;
   }
-  return LowestOf<Leaving, NotRunning, RangesStale, Arrived, Lost, Unsure, Signal, GiveWay,
-                  NotGranted, PeerLost, UnidentifiedMotion, KeepClear, KeepBoxClear, Obstacle,
-                  Object>(s);
+  return LowestOf<LowestBesidesObstacles, Obstacle, Object>(s);
 }
 
 }  // namespace giveway
