@@ -71,8 +71,8 @@ void AddHelp(CLI::App* fleetctl, int* exit_code) {
 void AddCompletion(CLI::App* fleetctl, int* exit_code) {
   CLI::App* verb = fleetctl->add_subcommand("completion", "Print the completion of a shell");
   verb->footer(kCompletionFooter);
-  const auto shell = std::make_shared<std::string>();
-  verb->add_option("SHELL", *shell, "bash")->required()->check(CLI::IsMember({"bash"}));
+  // Only checked: there is one to choose.
+  verb->add_option("SHELL")->description("bash")->required()->check(CLI::IsMember({"bash"}));
   verb->callback([exit_code] {
     std::fputs(kBashScript, stdout);
     *exit_code = 0;

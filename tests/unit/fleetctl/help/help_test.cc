@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "services/fleetctl/help/completion.h"
+#include "services/fleetctl/help/help_verbs.h"
 #include "services/fleetctl/help/usage_error.h"
 
 namespace giveway::fleetctl {
@@ -74,6 +75,27 @@ TEST_F(HelpTest, FlagsAndTheirValuesAreCompleted) {
   EXPECT_THAT(Completions(app_, {"run", "--lo"}), ElementsAre("--lockstep", "--log-level"));
   EXPECT_THAT(Completions(app_, {"run", "--log-level", ""}), ElementsAre("debug", "info"));
   EXPECT_THAT(Completions(app_, {"run", "--vehicles", ""}), IsEmpty());
+}
+
+class CompletionVerb : public testing::Test {
+ protected:
+  CompletionVerb() { AddHelpVerbs(&app_, "1", &exit_code_); }
+
+  CLI::App app_{"Fleets", "fleetctl"};
+  int exit_code_ = -1;
+};
+
+// The word was once parsed into a string that no longer existed, which the address sanitizer
+// alone sees.
+TEST_F(CompletionVerb, TheShellIsNotWrittenToMemoryThatWasFreed) {
+  app_.parse("completion bash");
+  EXPECT_EQ(exit_code_, 0);
+}
+
+TEST_F(CompletionVerb, AnUnknownShellOrNoneIsRefused) {
+  EXPECT_THROW(app_.parse("completion fish"), CLI::ValidationError);
+  EXPECT_THROW(app_.parse("completion"), CLI::RequiredError);
+  EXPECT_EQ(exit_code_, -1);
 }
 
 }  // namespace
