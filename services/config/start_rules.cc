@@ -78,7 +78,7 @@ std::vector<Overlaps> FindOverlaps(const Starts& starts) {
   };
   const std::vector<Bounds> bodies = AllBounds(starts.bodies);
   Sweep(bodies, AllBounds(starts.walls), {meet_bodies, meet_wall});
-  Sweep(bodies, AllBounds(starts.doors), {[](std::size_t, std::size_t) {}, meet_door});
+  Sweep(bodies, AllBounds(starts.doors), {nullptr, meet_door});
   return found;
 }
 

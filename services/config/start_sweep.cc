@@ -83,9 +83,11 @@ void Sweep(const std::vector<Bounds>& bodies, const std::vector<Bounds>& lines,
       open_lines.push_back(item);
       continue;
     }
-    MeetOpen(&open_bodies, item, [&](std::size_t other) {
-      visit.bodies(std::min(item.index, other), std::max(item.index, other));
-    });
+    if (visit.bodies) {
+      MeetOpen(&open_bodies, item, [&](std::size_t other) {
+        visit.bodies(std::min(item.index, other), std::max(item.index, other));
+      });
+    }
     MeetOpen(&open_lines, item, [&](std::size_t line) { visit.body_and_line(item.index, line); });
     open_bodies.push_back(item);
   }

@@ -10,7 +10,7 @@
 namespace giveway {
 
 struct SweepPairs {
-  // Bodies a < b whose bounds overlap, by their indices.
+  // Bodies a < b whose bounds overlap, by their indices. Empty: only lines matter.
   std::function<void(std::size_t a, std::size_t b)> bodies;
   std::function<void(std::size_t body, std::size_t line)> body_and_line;
 };
