@@ -87,9 +87,11 @@ Scenario Crowd(const Tier& tier, std::uint32_t seed) {
   for (std::uint32_t id = 1; id <= 8; ++id) {
     const double angle = 2 * kPi * id / 8;
     const Vec2 from = random.Uniform(3, 4) * Vec2{Cos(angle), Sin(angle)};
-    VehicleOptions options =
-        test::VehicleAt(id, Behaviour::kCooperative, random.Uniform(0.2, 0.6), from,
-                        Degrees(angle) + 180 + random.Uniform(-20, 20), 7);
+    // In this order whatever the compiler: arguments of a call have none.
+    const double turned_deg = random.Uniform(-20, 20);
+    const double cruise_m_s = random.Uniform(0.2, 0.6);
+    VehicleOptions options = test::VehicleAt(id, Behaviour::kCooperative, cruise_m_s, from,
+                                             Degrees(angle) + 180 + turned_deg, 7);
     options.sonar_refresh = tier.refresh;
     options.sonar_noise = tier.noise;
     options.profile.wheel_slip = 0.02;
