@@ -7,11 +7,11 @@ cd "$GIVEWAY_ROOT"
 QUICK_STAGES=(format rules unit golden link crossing virtual)
 # With --all, stages that run processes in real time go in order, and those that only compute in the
 # background at idle priority, in two runs: the second needs the images. The last stages run alone. asan and
-# fuzz run in the container of asan13, asan_link in that of debian13. dev and tidy are for --full.
+# fuzz run in the container of asan13, asan_link in that of debian13. clang, dev and tidy are for --full.
 FIRST_STAGES=(unit golden images)
 THEN_STAGES=(link system attack manuals web containers debian13)
 LAST_STAGES=(timed tsan)
-BACKGROUND_STAGES=(format rules deploy tsan_build virtual defects model clang tidy_sample)
+BACKGROUND_STAGES=(format rules deploy tsan_build virtual defects model tidy_sample)
 BACKGROUND_IMAGES_STAGES=(asan13)
 
 # Seconds each stage may take on two quiet cores with warm caches. A target, not a failure: machines are
@@ -26,15 +26,15 @@ Usage: bash tests/run.sh [STAGE ...] [--all] [--full]
 
 Without a stage: format, rules, unit, golden, link, one crossing and 20 seeds a generator, some
 minutes. With --all, as CI: every stage but crossing, which is one of system, asan, asan_link
-and fuzz, which asan13 and debian13 run in their container, and tidy and dev, which are for --full: tidy
-takes 20 minutes from nothing, and CI checks another thirtieth with each commit. What only computes
-runs in the background, at idle priority. Stages:
+and fuzz, which asan13 and debian13 run in their container, and tidy, clang and dev, which are for
+--full: tidy takes 20 minutes from nothing, and CI checks another thirtieth with each commit. What only
+computes runs in the background, at idle priority. Stages:
   format   clang-format over every tracked source
   rules    include arrows, sizes, names, shell scripts, generation
   tidy     clang-tidy over the services and the world, with the checks of .clang-tidy
   tidy_sample
            the same over a thirtieth of the units, which the commit's hash chooses
-  clang    every program compiled by clang, and golden, whose hashes must be the same; with --full unit too
+  clang    every program compiled by clang without sanitizers; unit, and golden, whose hashes are the same
   deploy   the manifests of Kubernetes against its schemas and against each other
   unit     pure tests: no sockets, no clocks
   golden   hashes that must never change
@@ -48,7 +48,7 @@ runs in the background, at idle priority. Stages:
   attack   an intruder on the network of a fleet that drives: forged, fuzzed and flooding; needs root
   manuals  every command that README.md and the manuals show
   web      the observer's page in a browser, its recordings in the field's own readers, its metrics in Prometheus
-  asan     unit and golden under the address and undefined-behaviour sanitizers; all with --full
+  asan     every program compiled by clang with the address and undefined-behaviour sanitizers; unit and golden
   asan_link link under the same
   fuzz     malformed scenarios, profiles, packets, beacons, scans and recordings in the asan build, a third of a minute each
   tsan_build, tsan
@@ -61,7 +61,7 @@ runs in the background, at idle priority. Stages:
 
   --all    every stage
   --full   more repetitions of the system tests, the largest models, five minutes a fuzz target,
-           10 000 seeds a generator (hours); with --all dev and tidy too
+           10 000 seeds a generator (hours); with --all clang, dev and tidy too
 
 The last line counts test cases: N passed, N failed.
 TEXT
@@ -299,11 +299,9 @@ tidy_test() {
 }
 
 stage_clang() {
-  prepare clang golden_tests giveway-bench giveway-observer giveway-vehicle giveway-world fleetctl
-  run_ctest clang golden "$(nproc)"
-  $full || return 0
-  prepare clang unit_tests
+  prepare clang unit_tests golden_tests giveway-bench giveway-observer giveway-vehicle giveway-world fleetctl
   run_ctest clang unit "$(nproc)"
+  run_ctest clang golden "$(nproc)"
 }
 
 # Kubernetes' schemas come as an npm package.
@@ -361,16 +359,11 @@ stage_attack() {
   check_lines parallel --will-cite "${attacks[@]}" ::: tests/attack/speak.sh tests/attack/admin_key.sh
 }
 
-# Half of the time is with --full alone: what runs on a developer's machine, fleetctl and the baselines, and
-# fleets in many situations, of the same code that golden drives fleets of.
+# By clang, which compiles a unit with sanitizers in half of g++'s time: so every program passes its warnings,
+# and golden compares its hashes with g++'s.
 stage_asan() {
-  local units
-  configure asan "${configuration[@]}"
-  mapfile -t units < <(ctest --test-dir build/asan -N -L '^unit$' | sed -n 's/^ *Test *#[0-9]*: //p' |
-    { if $full; then cat; else grep -vxE 'unit_(fleetctl|baseline|vehicle_in_world|virtual)'; fi; })
-  [[ ${#units[@]} -gt 0 ]] || die "no unit test in build/asan"
-  build asan "${units[@]}" golden_tests link_tests
-  run_ctest asan unit "$(nproc)" -R "^($(IFS='|' && echo "${units[*]}"))\$"
+  prepare asan unit_tests golden_tests link_tests giveway-observer giveway-vehicle giveway-world fleetctl
+  run_ctest asan unit "$(nproc)"
   run_ctest asan golden "$(nproc)"
 }
 
@@ -475,7 +468,7 @@ if $all; then
   built13=giveway-build13-$GIVEWAY_RUN
   start_background "${BACKGROUND_STAGES[@]}"
   run_stages "${FIRST_STAGES[@]}"
-  ! $full || run_stages dev tidy
+  ! $full || run_stages dev tidy clang
   start_background "${BACKGROUND_IMAGES_STAGES[@]}"
   run_stages "${THEN_STAGES[@]}"
   join_background

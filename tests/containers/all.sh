@@ -38,9 +38,7 @@ run_of() {
 
 # Fuzzing takes a given time, and only computes.
 asan13() {
-  local extent=()
-  [[ ${GIVEWAY_FULL:-} != true ]] || extent=(--full)
-  run_of asan "${extent[@]}"
+  run_of asan
   run_of fuzz
 }
 

@@ -124,12 +124,10 @@ TEST(World, TheContactTickIsCutToTheClosedFormsMoment) {
   DriveAll(&world, 4, 4, 30);
   const double before = X(world, 1) - X(world, 0) - 0.5;
   ASSERT_GT(before, 0);
-  int ticks = 0;
   double gap = before;
   while (world.Contacts() == 0) {
     gap = X(world, 1) - X(world, 0) - 0.5;
     DriveAll(&world, 4, 4, 1);
-    ++ticks;
   }
   // Each did half of the gap: encoders show the share of the tick that was driven.
   const double driven_m = world.Bodies()[0].encoders.left_rad_s * kWheel_m * 0.05;
