@@ -78,6 +78,10 @@ struct Target {
 };
 
 // Parameters of a kind besides target and times. Absent: the kind's own default, set by Expand.
+// A profile set without a file: what the fleet was started with, the deadlines that readers request
+// doubled. A single vehicle can take it while it drives.
+inline constexpr std::string_view kPatientReaders = "patient_readers";
+
 struct Parameters {
   std::optional<double> probability;   // 0 to 1
   std::optional<double> share;         // of a processor, above 0, to 1
@@ -89,7 +93,7 @@ struct Parameters {
   std::optional<double> bytes;         // 1 to 1e12; of kRate a second
   std::optional<std::uint32_t> count;  // 1 to 100000
   std::optional<VehicleId> from;       // the sender the target does not hear; absent: no other
-  std::string qos;                     // name or file of a profile set
+  std::string qos;                     // name or file of a profile set, or kPatientReaders
 
   friend bool operator==(const Parameters&, const Parameters&) = default;
 };

@@ -143,7 +143,7 @@ constexpr std::array<KindRow, kKinds> kTable = {{
      kReal,
      {},
      false,
-     "lossy_radio",
+     kPatientReaders,
      "is ordered over DDS to take a profile set, and its own again"},
     {Kind::kDuplicateId,
      "duplicate_id",

@@ -101,8 +101,8 @@ interrupted() {
   [[ -s $SCRATCH/early/report.html ]] || fail "an interrupted soak has no report"
 }
 
-# A third of the packets lost, a third doubled, some corrupted: every beacon of every pair is accounted
-# for, and the latency of samples is measured.
+# A third of the packets lost, a third doubled, some corrupted, a set of other deadlines ordered: every
+# beacon of every pair is accounted for, and the latency of samples is measured.
 accounted() {
   local code=0 report=$SCRATCH/accounted
   judged_soak accounted patrol --vehicles 3 --faults "$SCRATCH/lossy.textproto" --duration 50 || code=$?
@@ -112,6 +112,8 @@ accounted() {
     ([.accounting[] | select(.sent > 400 and .accepted > 50 and .lost > 20)] | length) == 6 and
     ([.accounting[] | .refused] | add) > 0' "$report/report.json" >/dev/null ||
     fail "beacons are not accounted for: $(jq -c .accounting "$report/report.json")"
+  jq -e '.faults | map(select(.kind == "qos_apply").observed_how) == ["patient_readers.xml in effect on 1 vehicle, and its own again"]' \
+    "$report/report.json" >/dev/null || fail "no other profile set was taken and taken back: $(jq -c '.faults' "$report/report.json")"
   grep -q 'Accounting of samples' "$report/report.html" || fail "the page does not show the accounting"
   jq -e '[.histograms[] | select((.name == "beacon_latency" or .name == "scan_latency") and .values > 400)] | length == 2' \
     "$report/report.json" >/dev/null || fail "the latency of samples is not measured"
@@ -281,6 +283,7 @@ at { name: "overtaken" time_s: 14 kind: "reorder" target: "all" for_s: 8 probabi
 at { name: "broken" time_s: 15 kind: "corrupt" target: "all" for_s: 8 probability: 0.1 }
 at { name: "stop" time_s: 18 kind: "pause" vehicle: 1 for_s: 1 }
 at { name: "again" time_s: 25 kind: "restart" vehicle: 2 for_s: 1 }
+at { name: "patient" time_s: 28 kind: "qos_apply" vehicle: 3 for_s: 4 }
 FAULTS
 cat >"$SCRATCH/host.textproto" <<'FAULTS'
 at { name: "forth" time_s: 16 kind: "clock_step" vehicle: 1 for_s: 4 offset_s: 3600 }

@@ -54,6 +54,19 @@ std::uint64_t AddressSpaceOf(pid_t pid) {
   return pages * 4096;
 }
 
+// `fleetctl qos apply` with the flags of every order to this fleet.
+std::vector<std::string> VerbOf(const FaultTools& tools) {
+  std::vector<std::string> words = {tools.fleetctl, "qos", "apply", "--domain",
+                                    std::to_string(tools.domain)};
+  const auto add = [&](const char* flag, const std::string& value) {
+    if (!value.empty()) words.insert(words.end(), {flag, value});
+  };
+  add("--interface", tools.interface);
+  add("--discovery-server", tools.discovery_servers);
+  add("--admin-key", tools.admin_key);
+  return words;
+}
+
 }  // namespace
 
 void SetFlag(std::vector<std::string>* words, const std::string& flag, const std::string& value) {
@@ -67,7 +80,7 @@ void SetFlag(std::vector<std::string>* words, const std::string& flag, const std
 }
 
 ProcessFaults::ProcessFaults(FaultTools tools, FleetProcesses* processes)
-    : tools_(std::move(tools)), processes_(processes) {}
+    : tools_(std::move(tools)), processes_(processes), orders_(VerbOf(tools_), tools_.qos_file) {}
 
 const char* ProcessFaults::WhyNot(const faults::Fault& fault, bool has_discovery_servers) {
   constexpr const char* kNoServer = "it takes --discovery-servers: there is none in this fleet";
@@ -228,6 +241,7 @@ void ProcessFaults::Begin(const faults::Fault& fault) {
     churns_[&fault].left = fault.parameters.count.value_or(1);
     return;
   }
+  if (fault.kind == Kind::kQosApply) return BeginOrders(fault);
   if (tools_.shm != nullptr) BeginOfSharedMemory(fault);
   for (const MemberId member : MembersOf(fault.target)) BeginOn(fault, member);
 }
@@ -235,6 +249,7 @@ void ProcessFaults::Begin(const faults::Fault& fault) {
 void ProcessFaults::End(const faults::Fault& fault) {
   churns_.erase(&fault);
   doubles_.erase(&fault);
+  orders_.End(fault);
   if (tools_.shm != nullptr) EndOfSharedMemory(fault);
   for (const MemberId member : MembersOf(fault.target)) EndOn(fault, member);
 }
@@ -277,9 +292,6 @@ void ProcessFaults::BeginOn(const faults::Fault& fault, MemberId member) {
       break;
     case Kind::kClockStep:
       StepClock(member, with.offset_s.value_or(0));
-      break;
-    case Kind::kQosApply:
-      GiveOrder(fault, member);
       break;
     case Kind::kDuplicateId:
       doubles_[&fault].push_back(
@@ -355,18 +367,7 @@ void ProcessFaults::Turn(SteadyTime now, double time_s) {
   for (auto& [fault, doubles] : doubles_) {
     for (const auto& process : doubles) process->Poll();
   }
-  std::erase_if(orders_, [this](const auto& order) {
-    order.second->Poll();
-    if (order.second->IsRunning()) return false;
-    const auto& said = order.second->LastLines();
-    order_ends_.push_back(
-        {order.first, *order.second->End(), said.empty() ? std::string() : said.back()});
-    return true;
-  });
-}
-
-std::vector<ProcessFaults::OrderEnd> ProcessFaults::TakeOrderEnds() {
-  return std::exchange(order_ends_, {});
+  orders_.Turn(now);
 }
 
 MemberCommand ProcessFaults::CommandNow(MemberId member) const {
@@ -396,23 +397,14 @@ std::unique_ptr<ChildProcess> ProcessFaults::StartBeside(MemberId member, std::u
   return std::make_unique<ChildProcess>(child);
 }
 
-void ProcessFaults::GiveOrder(const faults::Fault& fault, MemberId member) {
-  ChildCommand order;
-  order.name = fmt::format("order to {}", NameOf(member));
-  order.words = {tools_.fleetctl, "qos",
-                 "apply",         fault.parameters.qos,
-                 "--to",          std::to_string(member.number),
-                 "--domain",      std::to_string(tools_.domain)};
-  if (!tools_.interface.empty()) {
-    order.words.insert(order.words.end(), {"--interface", tools_.interface});
-  }
-  if (!tools_.discovery_servers.empty()) {
-    order.words.insert(order.words.end(), {"--discovery-server", tools_.discovery_servers});
-  }
-  if (!tools_.admin_key.empty()) {
-    order.words.insert(order.words.end(), {"--admin-key", tools_.admin_key});
-  }
-  orders_[&fault] = std::make_unique<ChildProcess>(order);
+// To one that is away nothing is ordered.
+void ProcessFaults::BeginOrders(const faults::Fault& fault) {
+  const bool all = fault.target.what == Target::What::kAll;
+  const MemberId member = MemberOf(fault.target.vehicle);
+  if (!all && (CommandOf(member) == nullptr || !processes_->IsRunning(member))) return;
+  const std::string& set = fault.parameters.qos;
+  orders_.Begin(fault, set == faults::kPatientReaders ? tools_.patient_readers : set,
+                all ? "all" : std::to_string(member.number));
 }
 
 // It runs for a share of each cycle, and is stopped for the rest.

@@ -17,6 +17,7 @@
 #include "services/fleetctl/process/child_process.h"
 #include "services/fleetctl/process/fleet_processes.h"
 #include "services/fleetctl/soak/host_faults/private_shm.h"
+#include "services/fleetctl/soak/host_faults/qos_orders.h"
 #include "services/fleetctl/soak/host_faults/steppable_clock.h"
 
 namespace giveway::fleetctl {
@@ -29,6 +30,8 @@ struct FaultTools {
   std::string interface;
   std::string discovery_servers;  // as --discovery-server has them; empty: none
   std::string admin_key;          // the file of the key that seals the fleet's orders
+  std::string qos_file;           // what the fleet was started with
+  std::string patient_readers;    // the file of that name's set; empty: no fault has it
   // The clock of every member, if the list steps clocks: each was started with its own.
   std::map<MemberId, SteppableClock> clocks;
   std::string attacker;       // the program of the intruder; empty: no such faults
@@ -61,13 +64,8 @@ class ProcessFaults {
   bool IsAway(MemberId member) const {
     return away_.contains(member) || returning_.contains(member);
   }
-  // Ends of the orders given by `fleetctl qos apply`, each once: the fault and the exit code.
-  struct OrderEnd {
-    const faults::Fault* fault = nullptr;
-    ProcessEnd how;
-    std::string last_line;
-  };
-  std::vector<OrderEnd> TakeOrderEnds();
+  // The orders to take another profile set that ended since the last call.
+  std::vector<QosOrders::Ended> TakeEndedOrders() { return orders_.TakeEnded(); }
   // How to start a member that has just ended.
   MemberCommand CommandNow(MemberId member) const;
   // The visible effect of an active fault: process stopped, gone, limited. Empty if none is
@@ -103,7 +101,7 @@ class ProcessFaults {
   const MemberCommand* CommandOf(MemberId member) const;
   std::unique_ptr<ChildProcess> StartBeside(MemberId member, std::uint32_t id,
                                             const std::string& name) const;
-  void GiveOrder(const faults::Fault& fault, MemberId member);
+  void BeginOrders(const faults::Fault& fault);
   void TurnSlow(MemberId member, SteadyTime now, Slow* slow);
   void TurnChurn(SteadyTime now, Churn* churn);
   void Limit(MemberId member, int resource, std::optional<std::uint64_t> most);
@@ -116,9 +114,8 @@ class ProcessFaults {
   std::map<MemberId, Slow> slow_;
   std::map<MemberId, std::uint64_t> moved_before_;  // readings, before the clock's last step
   std::map<const faults::Fault*, Churn> churns_;
-  std::map<const faults::Fault*, std::unique_ptr<ChildProcess>> orders_;
+  QosOrders orders_;
   std::map<const faults::Fault*, std::vector<std::unique_ptr<ChildProcess>>> doubles_;
-  std::vector<OrderEnd> order_ends_;
   std::uint32_t churned_ = 0;
   double time_s_ = 0;
 };

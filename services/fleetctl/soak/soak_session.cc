@@ -265,11 +265,25 @@ void SoakSession::NoteProcessEffects() {
     const std::string effect = faults_.EffectOf(fault);
     if (!effect.empty()) watch_.NoteEffect(i, effect);
   }
-  for (const ProcessFaults::OrderEnd& order : faults_.TakeOrderEnds()) {
+  for (const QosOrders::Ended& order : faults_.TakeEndedOrders()) {
     const auto i = static_cast<std::size_t>(order.fault - schedule_.data());
-    watch_.NoteEffect(
-        i, fmt::format("the order ended with {}: {}", Describe(order.how), order.last_line));
+    NoteOrder(i, order);
   }
+}
+
+// It is in effect where the verb says so; where it does not, its last line says why.
+void SoakSession::NoteOrder(std::size_t fault, const QosOrders::Ended& order) {
+  const bool back = order.order == QosOrder::kTakeBack;
+  if (order.how == ProcessEnd{}) {
+    if (back) {
+      watch_.AddToEffect(fault, ", and its own again");
+    } else {
+      watch_.NoteEffect(fault, order.last_line);
+    }
+    return;
+  }
+  watch_.NoteFailure(fault, fmt::format("the order{} ended with {}: {}", back ? " back" : "",
+                                        Describe(order.how), order.last_line));
 }
 
 void SoakSession::HearLines() {

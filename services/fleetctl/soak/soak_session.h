@@ -20,6 +20,7 @@
 #include "services/fleetctl/soak/fleet_course.h"
 #include "services/fleetctl/soak/fleet_timing.h"
 #include "services/fleetctl/soak/host_faults/attackers.h"
+#include "services/fleetctl/soak/host_faults/qos_orders.h"
 #include "services/fleetctl/soak/near_misses.h"
 #include "services/fleetctl/soak/pause_meter.h"
 #include "services/fleetctl/soak/process_faults.h"
@@ -61,6 +62,7 @@ class SoakSession {
   void KeepRings(SteadyTime now);
   void CarryOut(std::span<const FaultEdge> edges);
   void NoteProcessEffects();
+  void NoteOrder(std::size_t fault, const QosOrders::Ended& order);
   void HearLines();
   void NoteEnds();
   void RestartThoseThatEnded(SteadyTime now);

@@ -155,7 +155,8 @@ class SoakEvaluation {
     if (!course.began) return;
     if (!entry.observed) {
       AddViolation(fault.at_s, fault.target.vehicle, "effect",
-                   fmt::format("{} was ordered, and no effect of it was seen", NameOf(entry)));
+                   fmt::format("{} was ordered, and no effect of it was seen{}{}", NameOf(entry),
+                               course.failure.empty() ? "" : ": ", course.failure));
     }
     const bool lasted = !course.ended || fault.for_s <= 0 ||
                         Seconds(*course.ended - *course.began) >= fault.for_s * 0.9;

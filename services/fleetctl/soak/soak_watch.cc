@@ -209,6 +209,10 @@ void SoakWatch::NoteEffect(std::size_t fault, std::string effect) {
   if (courses_[fault].effect.empty()) courses_[fault].effect = std::move(effect);
 }
 
+void SoakWatch::AddToEffect(std::size_t fault, const std::string& more) {
+  if (!courses_[fault].effect.empty()) courses_[fault].effect += more;
+}
+
 void SoakWatch::SetAway(VehicleId vehicle, bool away) {
   View& view = views_[vehicle];
   if (away) view.status.reset();

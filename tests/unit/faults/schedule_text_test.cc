@@ -15,7 +15,7 @@ TEST(ScheduleText, ALineSaysWhenForHowLongWhoAndWhat) {
   EXPECT_EQ(Line(Of(Kind::kOneWayCut, Vehicle(3), 1, 2, {.from = VehicleId{4}})),
             "1 s for 2 s: vehicle 3: one_way_cut from=4");
   EXPECT_EQ(Line(Of(Kind::kQosApply, kAllTarget, 1, 2)),
-            "1 s for 2 s: all: qos_apply qos=\"lossy_radio\"");
+            "1 s for 2 s: all: qos_apply qos=\"patient_readers\"");
 }
 
 TEST(ScheduleText, AFileHasALineAFault) {

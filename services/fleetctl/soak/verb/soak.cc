@@ -15,6 +15,7 @@
 #include "services/config/impair.h"
 #include "services/config/problem.h"
 #include "services/config/scenario_file.h"
+#include "services/config/text_file.h"
 #include "services/config/writing/scenario_edit.h"
 #include "services/faults/channel.h"
 #include "services/faults/kind_table.h"
@@ -32,6 +33,7 @@
 #include "services/fleetctl/soak/host_faults/attackers.h"
 #include "services/fleetctl/soak/host_faults/discovery_servers.h"
 #include "services/fleetctl/soak/host_faults/private_shm.h"
+#include "services/fleetctl/soak/host_faults/qos_orders.h"
 #include "services/fleetctl/soak/soak_draw.h"
 #include "services/fleetctl/soak/soak_json.h"
 #include "services/fleetctl/soak/soak_page.h"
@@ -208,8 +210,14 @@ FaultTools ToolsOf(const SoakOptions& options, const FleetSpec& spec, const Prep
   tools.interface = spec.options.interface;
   tools.discovery_servers = ToText(spec.options.discovery_servers);
   tools.admin_key = spec.options.admin_key;
+  tools.qos_file = spec.qos_file;
   tools.attacker = options.attacker;
   const fs::path folder = fs::path(options.report_folder) / "impair";
+  if (Has(prepared.schedule, {faults::Kind::kQosApply})) {
+    tools.patient_readers = (folder / "patient_readers.xml").string();
+    WriteFile(tools.patient_readers,
+              WithPatientReaders(ReadTextFile(spec.qos_file), spec.qos_file));
+  }
   tools.impairment_since = [&prepared, folder](VehicleId vehicle, double since_s) {
     const auto impaired = faults::ImpairmentOf(prepared.schedule, prepared.fleet, since_s);
     const auto found = impaired.find(vehicle);
