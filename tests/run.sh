@@ -48,7 +48,8 @@ computes runs in the background, at idle priority. Stages:
   attack   an intruder on the network of a fleet that drives: forged, fuzzed and flooding; needs root
   manuals  every command that README.md and the manuals show
   web      the observer's page in a browser, its recordings in the field's own readers, its metrics in Prometheus
-  asan     every program compiled by clang with the address and undefined-behaviour sanitizers; unit and golden
+  asan     every program compiled by clang with the address and undefined-behaviour sanitizers; golden, and
+           unit: the slow ones of fleets with --full
   asan_link link under the same
   fuzz     malformed scenarios, profiles, packets, beacons, scans and recordings in the asan build, a third of a minute each
   tsan_build, tsan
@@ -360,14 +361,23 @@ stage_attack() {
 }
 
 # By clang, which compiles a unit with sanitizers in half of g++'s time: so every program passes its warnings,
-# and golden compares its hashes with g++'s.
+# and golden compares its hashes with g++'s. With --full alone, for they take half of the time: fleets in many
+# situations, of the same code that golden drives fleets of, the baselines, and single cases of many seconds.
 stage_asan() {
-  prepare asan unit_tests golden_tests link_tests giveway-observer giveway-vehicle giveway-world fleetctl
-  run_ctest asan unit "$(nproc)"
+  local slow='VirtualBatch.*:Scenarios/*:ComparedSoaks.*:ResourcesOverTime.*:PlaceRules.AFullFleetOnOneSpot*'
+  local units
+  configure asan "${configuration[@]}"
+  mapfile -t units < <(ctest --test-dir build/asan -N -L '^unit$' | sed -n 's/^ *Test *#[0-9]*: //p' |
+    { if $full; then cat; else grep -vxE 'unit_(baseline|vehicle_in_world|virtual)'; fi; })
+  [[ ${#units[@]} -gt 0 ]] || die "no unit test in build/asan"
+  build asan "${units[@]}" golden_tests link_tests giveway-observer giveway-vehicle giveway-world fleetctl
+  ! $full || slow=''
+  GTEST_FILTER="*-$slow" run_ctest asan unit "$(nproc)" -R "^($(IFS='|' && echo "${units[*]}"))\$"
   run_ctest asan golden "$(nproc)"
 }
 
-stage_asan_link() { prepare asan link_tests && run_ctest asan link 2; }
+# Participants wait more than they compute, under a sanitizer too.
+stage_asan_link() { prepare asan link_tests && run_ctest asan link 3; }
 
 stage_fuzz() { prepare asan fuzz_tests && run_ctest asan fuzz "$(nproc)"; }
 
@@ -390,7 +400,7 @@ stage_tsan_build() { prepare tsan link_tests giveway-vehicle giveway-world; }
 stage_tsan() {
   prepare release fleetctl
   stage_tsan_build
-  run_ctest tsan link 2
+  run_ctest tsan link 3
   check "a crossing under the thread sanitizer" tsan_crossing
 }
 

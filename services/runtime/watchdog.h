@@ -11,13 +11,14 @@
 #include <cstdint>
 #include <thread>
 
+#include "services/types/sanitizers.h"
 #include "services/types/time.h"
 
 namespace giveway {
 
 inline constexpr int kWatchdogExit = 70;  // EX_SOFTWARE of sysexits.h
 // A sanitizer slows a start of many endpoints down tenfold.
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+#if defined(GIVEWAY_THREAD_SANITIZER) || defined(GIVEWAY_ADDRESS_SANITIZER)
 inline constexpr Nanoseconds kWatchdogLimit = std::chrono::seconds(30);
 #else
 inline constexpr Nanoseconds kWatchdogLimit = std::chrono::seconds(3);

@@ -38,7 +38,9 @@ run_of() {
 
 # Fuzzing takes a given time, and only computes.
 asan13() {
-  run_of asan
+  local extent=()
+  [[ ${GIVEWAY_FULL:-} != true ]] || extent=(--full)
+  run_of asan "${extent[@]}"
   run_of fuzz
 }
 

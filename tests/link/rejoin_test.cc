@@ -10,9 +10,10 @@
 
 #include "services/link/observer_link.h"
 #include "services/link/world_link.h"
+#include "services/types/sanitizers.h"
 #include "tests/link/fleet.h"
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef GIVEWAY_ADDRESS_SANITIZER
 // Of the sanitizer's interface; Debian's g++ does not bring the header along.
 extern "C" std::size_t __sanitizer_get_current_allocated_bytes();
 #endif
@@ -280,7 +281,7 @@ TEST(Leaving, ALatecomerIsNotToldOfThoseThatLeftOrWereRefusedLongAgo) {
 // Memory of this process, kB: resident, or under the address sanitizer, which keeps what was freed
 // for a while, what the heap has given out.
 long MemoryKb() {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef GIVEWAY_ADDRESS_SANITIZER
   return static_cast<long>(__sanitizer_get_current_allocated_bytes() / 1024);
 #else
   std::ifstream file("/proc/self/statm");
@@ -313,7 +314,7 @@ TEST(Leaving, AndComingAThousandTimesLeavesNothingBehind) {
   const long before = MemoryKb();
   come_and_go(1000);
   // The thread sanitizer's shadow of what was touched is resident too.
-#ifdef __SANITIZE_THREAD__
+#ifdef GIVEWAY_THREAD_SANITIZER
   constexpr long kMostKb = 3 * 4096;
 #else
   constexpr long kMostKb = 4096;
