@@ -77,11 +77,11 @@ struct Target {
   friend constexpr bool operator==(const Target&, const Target&) = default;
 };
 
-// Parameters of a kind besides target and times. Absent: the kind's own default, set by Expand.
 // A profile set without a file: what the fleet was started with, the deadlines that readers request
 // doubled. A single vehicle can take it while it drives.
 inline constexpr std::string_view kPatientReaders = "patient_readers";
 
+// Parameters of a kind besides target and times. Absent: the kind's own default, set by Expand.
 struct Parameters {
   std::optional<double> probability;   // 0 to 1
   std::optional<double> share;         // of a processor, above 0, to 1

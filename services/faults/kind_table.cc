@@ -144,7 +144,7 @@ constexpr std::array<KindRow, kKinds> kTable = {{
      {},
      false,
      kPatientReaders,
-     "is ordered over DDS to take a profile set, and its own again"},
+     "is ordered over DDS to take a profile set or patient readers, then its own"},
     {Kind::kDuplicateId,
      "duplicate_id",
      kS,
