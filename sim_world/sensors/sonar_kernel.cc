@@ -7,7 +7,7 @@
 #include <limits>
 
 // With other compilers and on other machines the plain width serves.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#if defined(__x86_64__) && defined(__GNUC__)
 #define GIVEWAY_X86_SIMD 1
 #include <immintrin.h>
 #endif
@@ -39,19 +39,36 @@ namespace plain {
 #ifdef GIVEWAY_X86_SIMD
 #define GIVEWAY_WIDTH_AVX2 \
   1  // __AVX2__ does not follow the pragma where preprocessing is a step apart
+#ifdef __clang__
+#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
+#else
 #pragma GCC push_options
 #pragma GCC target("avx2")
+#endif
 namespace avx2 {
 #include "sim_world/sensors/sonar_kernel_width.inc"
 }  // namespace avx2
+#ifdef __clang__
+#pragma clang attribute pop
+#else
 #pragma GCC pop_options
+#endif
 
+#ifdef __clang__
+#pragma clang attribute push(__attribute__((target("avx512f,avx512dq,avx512vl"))), \
+                             apply_to = function)
+#else
 #pragma GCC push_options
 #pragma GCC target("avx512f,avx512dq,avx512vl")
+#endif
 namespace avx512 {
 #include "sim_world/sensors/sonar_kernel_width.inc"
 }  // namespace avx512
+#ifdef __clang__
+#pragma clang attribute pop
+#else
 #pragma GCC pop_options
+#endif
 #endif
 
 }  // namespace
