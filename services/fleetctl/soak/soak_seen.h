@@ -25,7 +25,7 @@ struct FaultCourse {
   std::optional<SteadyTime> began;
   std::optional<SteadyTime> ended;  // or, for an instantaneous one, when it started
   std::string effect;               // the observed effect; empty: none yet
-  std::string failure;              // why an attempt to inject it failed, the last one; or empty
+  std::string failure;              // of the last attempt to inject or undo it; empty: none
   // By the first peer, for each mechanism that reported it.
   std::array<std::optional<SteadyTime>, kMechanisms> noticed;
   std::optional<SteadyTime> recovered;  // after its end all that it affected recovered

@@ -131,6 +131,8 @@ class SoakEvaluation {
                     .target = faults::ToString(fault.target),
                     .observed = !course.effect.empty(),
                     .observed_how = course.effect};
+    // One that took effect and was not undone.
+    if (entry.observed && !course.failure.empty()) entry.observed_how += "; " + course.failure;
     // Other faults may also make peers hear less of the target, but not each time: nothing is
     // promised.
     for (const std::optional<SteadyTime>& noticed : course.noticed) {

@@ -207,10 +207,12 @@ void SoakWatch::NoteEnd(std::size_t fault, SteadyTime now) { courses_[fault].end
 
 void SoakWatch::NoteEffect(std::size_t fault, std::string effect) {
   if (courses_[fault].effect.empty()) courses_[fault].effect = std::move(effect);
+  courses_[fault].failure.clear();
 }
 
 void SoakWatch::AddToEffect(std::size_t fault, const std::string& more) {
   if (!courses_[fault].effect.empty()) courses_[fault].effect += more;
+  courses_[fault].failure.clear();
 }
 
 void SoakWatch::SetAway(VehicleId vehicle, bool away) {

@@ -36,9 +36,9 @@ class SoakWatch {
   void NoteEnd(std::size_t fault, SteadyTime now);
   // The supervisor observed it. The first message stays.
   void NoteEffect(std::size_t fault, std::string effect);
-  // What was seen of it later, where any effect was.
+  // What was seen of it later, where any effect was. As the first, it settles an earlier failure.
   void AddToEffect(std::size_t fault, const std::string& more);
-  // What was tried for it failed; the last time is kept.
+  // An attempt to inject it, or to undo it, failed; the last one is kept.
   void NoteFailure(std::size_t fault, std::string why) { courses_[fault].failure = std::move(why); }
   // Nothing is expected of a process that is meant to be gone; a new one has to report everything
   // again.

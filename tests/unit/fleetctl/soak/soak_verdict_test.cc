@@ -65,6 +65,15 @@ TEST_F(SoakVerdictTest, FailsWhereAFaultHadNoEffect) {
   EXPECT_EQ(result.violations[0].fault, "die#0");
 }
 
+TEST_F(SoakVerdictTest, TellsWhyAFaultCouldNotBeInjectedOrUndone) {
+  seen_.courses[0].failure = "the order ended with exit code 1: refused";
+  EXPECT_EQ(Judged().faults[0].observed_how,
+            "the process ended; the order ended with exit code 1: refused");
+  seen_.courses[0].effect.clear();
+  EXPECT_EQ(Judged().faults[0].observed_how, "");
+  EXPECT_THAT(Judged().violations.at(0).words, HasSubstr("seen: the order ended with exit code 1"));
+}
+
 TEST_F(SoakVerdictTest, FailsWhereNobodyNoticedOrTooLate) {
   Noticed() = seconds(14);
   EXPECT_EQ(Judged().violations.at(0).invariant, "detection");

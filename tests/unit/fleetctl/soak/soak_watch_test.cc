@@ -251,5 +251,20 @@ TEST_F(SoakWatchTest, ACounterThatRisesLongAfterIsNotItsEffect) {
   EXPECT_EQ(watch_.Courses()[1].effect, "");
 }
 
+TEST_F(SoakWatchTest, AFailureIsSettledByAnEffectAndOneToUndoItByWhatFollows) {
+  watch_.NoteBegin(1, seconds(10));
+  watch_.NoteFailure(1, "refused");
+  watch_.AddToEffect(1, ", and undone");
+  EXPECT_EQ(watch_.Courses()[1].effect, "") << "there was none to add to";
+  watch_.NoteFailure(1, "refused");
+  watch_.NoteEffect(1, "taken");
+  EXPECT_EQ(watch_.Courses()[1].failure, "");
+  watch_.NoteFailure(1, "not undone");
+  EXPECT_EQ(watch_.Courses()[1].failure, "not undone");
+  watch_.AddToEffect(1, ", and undone");
+  EXPECT_EQ(watch_.Courses()[1].effect, "taken, and undone");
+  EXPECT_EQ(watch_.Courses()[1].failure, "");
+}
+
 }  // namespace
 }  // namespace giveway::fleetctl
