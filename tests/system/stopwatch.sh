@@ -32,7 +32,7 @@ refused 'no_such.xml' --qos no_such.xml
 
 stopwatch 0 10 "the table" --table
 grep -Eq '^ +hung +must see +must see +if manual +none +none *$' out || fail "the table: $(cat out)"
-grep -Eq '^ +lease +10100 ms' out || fail "the table: $(cat out)"
+grep -Eq '^ +lease +10125 ms' out || fail "the table: $(cat out)"
 
 stopwatch 0 300 "the shipped profile" --quick --json
 says "the shipped profile" '.verdict == "kept" and .findings == []

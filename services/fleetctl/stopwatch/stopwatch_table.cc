@@ -12,7 +12,11 @@ constexpr std::array<std::string_view, kFaults> kFaultNames = {"kill", "pause", 
 constexpr std::array<std::string_view, kMechanisms> kMechanismNames = {
     "beacon_age", "deadline", "liveliness", "lease", "good_bye"};
 
-constexpr std::string_view kOnceATick = "the peer looks once a beacon period";
+constexpr std::string_view kOnceATick =
+    "the peer looks once a beacon period, half a period later where its scan is late";
+
+// A control loop that awaits a scan gives up half a period after it was due (vehicle_loop.cc).
+Nanoseconds LongestTick(const Limits& limits) { return limits.beacon_period * 3 / 2; }
 
 std::optional<Nanoseconds> LimitOf(Mechanism mechanism, const Limits& limits) {
   switch (mechanism) {
@@ -25,7 +29,7 @@ std::optional<Nanoseconds> LimitOf(Mechanism mechanism, const Limits& limits) {
     case Mechanism::kLease:
       return limits.lease;
     case Mechanism::kLeaveNotice:
-      return limits.beacon_period;
+      return LongestTick(limits);
   }
   return std::nullopt;
 }
@@ -41,7 +45,7 @@ std::string_view LimitName(Mechanism mechanism) {
     case Mechanism::kLease:
       return "lease of the profile giveway_participant";
     case Mechanism::kLeaveNotice:
-      return "a vehicle that is asked to stop checks once a beacon period, then says so";
+      return "a vehicle that is asked to stop looks as often as its peers do, then says so";
   }
   return "";
 }
@@ -84,9 +88,9 @@ Duty DutyOf(Fault fault, Mechanism mechanism, const Limits& limits) {
 std::vector<Term> Promise(Mechanism mechanism, const Limits& limits) {
   const std::optional<Nanoseconds> limit = LimitOf(mechanism, limits);
   if (!limit) return {};
-  std::vector<Term> terms{{*limit, LimitName(mechanism)}, {limits.beacon_period, kOnceATick}};
+  std::vector<Term> terms{{*limit, LimitName(mechanism)}, {LongestTick(limits), kOnceATick}};
   if (mechanism == Mechanism::kBeaconAge) {
-    terms.push_back({limits.beacon_period,
+    terms.push_back({LongestTick(limits),
                      "a beacon's age counts from the peer's tick after the one it was sent in"});
   }
   // Measured: half of a fleet of eight faulted together, 10 ms for each in the worst case.

@@ -66,17 +66,17 @@ TEST(StopwatchFigures, APauseOfTheMachineExcusesAsMuchAsItLasted) {
   Trial trial = PerfectTrial(Fault::kKill, Shipped());
   Sighting* const deadline = Find(&trial, Mechanism::kDeadline);
   deadline->pause = milliseconds(20);
-  deadline->after = milliseconds(220);
+  deadline->after = milliseconds(245);
   const StopwatchReport excused = ReportOf({trial}, Shipped());
   EXPECT_TRUE(excused.Kept());
   for (const Cell& cell : excused.cells) {
     EXPECT_EQ(cell.excused, cell.mechanism == Mechanism::kDeadline ? 1U : 0U);
   }
-  deadline->after = milliseconds(221);
+  deadline->after = milliseconds(246);
   const StopwatchReport late = ReportOf({trial}, Shipped());
   EXPECT_FALSE(late.Kept());
   EXPECT_THAT(Findings(late),
-              ElementsAre("kill: deadline saw 1 of 1 later than the 200 ms promised and the pause "
+              ElementsAre("kill: deadline saw 1 of 1 later than the 225 ms promised and the pause "
                           "then, by up to 1.0 ms"));
 }
 

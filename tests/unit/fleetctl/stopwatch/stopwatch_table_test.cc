@@ -43,12 +43,13 @@ TEST(StopwatchTable, WhatIsOffMustSeeNothing) {
   EXPECT_THAT(TableText(limits), HasSubstr("off in this profile"));
 }
 
-TEST(StopwatchTable, APromiseIsTheLimitAndWhatLookingOnceAPeriodCosts) {
-  EXPECT_EQ(PromisedWithin(Mechanism::kBeaconAge, Shipped()), milliseconds(300));
-  EXPECT_EQ(PromisedWithin(Mechanism::kDeadline, Shipped()), milliseconds(200));
-  EXPECT_EQ(PromisedWithin(Mechanism::kLiveliness, Shipped()), milliseconds(300));
-  EXPECT_EQ(PromisedWithin(Mechanism::kLease, Shipped()), milliseconds(10'100));
-  EXPECT_EQ(PromisedWithin(Mechanism::kLeaveNotice, Shipped()), milliseconds(100));
+// A vehicle and its peer may each miss a scan of a busy world: a leave notice took 126 ms then.
+TEST(StopwatchTable, APromiseIsTheLimitAndTheLongestTimeBetweenTwoLooks) {
+  EXPECT_EQ(PromisedWithin(Mechanism::kBeaconAge, Shipped()), milliseconds(350));
+  EXPECT_EQ(PromisedWithin(Mechanism::kDeadline, Shipped()), milliseconds(225));
+  EXPECT_EQ(PromisedWithin(Mechanism::kLiveliness, Shipped()), milliseconds(325));
+  EXPECT_EQ(PromisedWithin(Mechanism::kLease, Shipped()), milliseconds(10'125));
+  EXPECT_EQ(PromisedWithin(Mechanism::kLeaveNotice, Shipped()), milliseconds(150));
 }
 
 TEST(StopwatchTable, EveryTermOfAPromiseHasAReason) {
