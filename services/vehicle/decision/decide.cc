@@ -10,7 +10,9 @@
 namespace giveway {
 namespace {
 
-// Past a standing vehicle at walking pace, and no faster than the cruise.
+// Past a standing vehicle, and away from what stopped it, at walking pace and no faster than the
+// cruise. The second is a heading without a goal: at 0.8 m/s it crossed a lane within a second, and
+// the ultrasonics showed the wall on the other side too late.
 constexpr double kRoundSpeed_m_s = 0.2;
 
 bool IsAvoiding(Behaviour behaviour) {
@@ -64,6 +66,7 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
                                               profile.deceleration_m_s2));
   }
   action.decision.rule = Rule::kCruise;
+  if (steering.gets_away) speed = std::min(speed, kRoundSpeed_m_s);
   if (steering.round != kNoVehicle) {
     speed = std::min(speed, kRoundSpeed_m_s);
     action.decision.rule = Rule::kSteerRound;

@@ -54,18 +54,21 @@ std::optional<Proposal> HeardPlace(const Situation& s) {
   return Proposal{.max_speed_m_s = limit, .may_turn = true, .rule = Rule::kObstacle};
 }
 
-// By how much it will have turned, on average, until it stands: brakes stop no turn before. What
-// echoes show of a slant is of kClosingTime_s ago.
-double TurnsWhileBraking(const OwnView& s) {
+// By how much it turns to the left from when echoes showed a slant, which is kClosingTime_s ago, to
+// when it stands, on average: brakes stop no turn before. Away from what is on that side it may stop
+// turning at any time.
+double TurnsWhileBraking(bool is_left, const OwnView& s) {
   const double stops_s = s.reaction_s + s.speed_m_s / s.options.profile.deceleration_m_s2;
-  return s.turn_rad_s * (kClosingTime_s + stops_s / 2);
+  const bool towards = (s.turn_rad_s > 0) == is_left;
+  return s.turn_rad_s * (kClosingTime_s + (towards ? stops_s / 2 : 0));
 }
 
 // The lesser of how far it may go straight on and along a face that slants.
 std::optional<double> FreeOfEcho(std::size_t sensor, const Situation& s) {
   const std::optional<double> ahead_m = FreeAhead(sensor, s);
   if (!Remembers(s.own.options)) return ahead_m;
-  const std::optional<double> along_m = FreeAlongFace(sensor, TurnsWhileBraking(s.own), s);
+  const bool is_left = s.own.cones.of[sensor].axis_body.y > 0;
+  const std::optional<double> along_m = FreeAlongFace(sensor, TurnsWhileBraking(is_left, s.own), s);
   return !ahead_m || (along_m && *along_m < *ahead_m) ? along_m : ahead_m;
 }
 

@@ -291,6 +291,7 @@ Steering SteerToGoal(const Situation& s) {
     steering.away_rad = EscapeHeading(wanted, s);
   if (const auto kept = steering.away_rad ? steering.away_rad : KeptHeading(headings, s)) {
     steering.side = s.own.steer_side;
+    steering.gets_away = true;
     steering.heading_error_rad = WrapAngle(*kept - s.own.world_from_body.heading_rad);
     return steering;
   }
@@ -302,6 +303,7 @@ Steering SteerToGoal(const Situation& s) {
     const bool gets_away = headings.stops && !HasCompany(s);
     if (heading != wanted && (gets_away || (turn.kept && TurnsOnTheSpot(heading, s)))) {
       steering.away_rad = heading;
+      steering.gets_away = true;
     }
   }
   steering.heading_error_rad = WrapAngle(heading - s.own.world_from_body.heading_rad);
@@ -354,16 +356,27 @@ double MostTurnOf(const RobotModel& profile) {
   return std::min(profile.max_turn_rad_s / 2, kTurnWhileDriving_rad_s);
 }
 
-// The highest speed at which the vehicle stops before a heard place that the turn leads to, by its
-// end or halfway; empty where the path straight on is no longer.
-std::optional<double> PlaceLimitOfTurn(double turned_rad, const Situation& s) {
-  if (s.places.empty()) return std::nullopt;
-  const double straight_m = FreeOfPlaces({1, 0}, s).value_or(s.own.slows_m);
+// How far it may go on once it has turned: before what was heard there, and before a face that it
+// hears to its side, which goes on further than it was heard. Exact ultrasonics hear all of a face.
+double FreeOnceTurned(double turned_rad, const Situation& s) {
   double free_m = s.own.slows_m;
-  for (const double angle_rad : {turned_rad / 2, turned_rad}) {
-    const Vec2 direction_body = {Cos(angle_rad), Sin(angle_rad)};
-    free_m = std::min(free_m, FreeOfPlaces(direction_body, s).value_or(s.own.slows_m));
+  const Vec2 direction_body = {Cos(turned_rad), Sin(turned_rad)};
+  const auto keep = [&free_m](std::optional<double> free) {
+    if (free) free_m = std::min(free_m, *free);
+  };
+  const bool remembers = Remembers(s.own.options);
+  for (const std::size_t i : BitsOf(s.own.ranges.Echoes())) {
+    keep(remembers ? FreeAlongFace(i, turned_rad, s) : FreeTowards(i, direction_body, s));
   }
+  keep(FreeOfPlaces(direction_body, s));
+  return free_m;
+}
+
+// The highest speed at which the vehicle stops before what was heard where the turn leads to, by its
+// end or halfway; empty where the path straight on is no longer.
+std::optional<double> HeardLimitOfTurn(double turned_rad, const Situation& s) {
+  const double straight_m = FreeOnceTurned(0, s);
+  const double free_m = std::min(FreeOnceTurned(turned_rad / 2, s), FreeOnceTurned(turned_rad, s));
   if (free_m >= s.own.slows_m || free_m >= straight_m) return std::nullopt;
   return SpeedToStopWithin(free_m, s.own.reaction_s, s.own.options.profile.deceleration_m_s2);
 }
@@ -389,7 +402,7 @@ std::optional<TurnLimit> LimitOfTurn(const Steering& steering, const Situation& 
       lowest = TurnLimit{limit, view.peer->id, view.peer->beacon.tick};
     }
   }
-  const std::optional<double> limit = PlaceLimitOfTurn(turned_rad, s);
+  const std::optional<double> limit = HeardLimitOfTurn(turned_rad, s);
   if (limit && (!lowest || *limit < lowest->max_speed_m_s)) lowest = TurnLimit{*limit};
   return lowest;
 }

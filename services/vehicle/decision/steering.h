@@ -12,6 +12,7 @@ struct Steering {
   VehicleId blocked_by = kNoVehicle;  // without progress: the nearest on the straight path
   int side = 0;                       // turned away from the wanted heading: 1 left, -1 right
   std::optional<double> away_rad;     // the heading it keeps to from now on, if chosen just now
+  bool gets_away = false;             // along such a heading, now or before: not to the goal
 };
 
 // Steers to the goal; where a standing peer that gives way blocks the straight path, along the

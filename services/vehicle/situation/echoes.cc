@@ -122,7 +122,7 @@ double RangeAhead(const SensorView& view, const OwnView& s) {
 double ShownSlant(const SensorView& view, const OwnView& s) {
   constexpr double kDriven_m_s = 0.05;  // slower, echoes show no slant
   const double driven_m_s = view.own.forward_m_s;
-  if (s.turns || driven_m_s < kDriven_m_s) return 0;
+  if (driven_m_s < kDriven_m_s) return 0;
   return view.closing_m_s / driven_m_s;
 }
 
@@ -170,21 +170,28 @@ std::uint32_t EchoesOf(const CarriedPeer& peer, const OwnView& s) {
   return explains;
 }
 
-std::optional<double> FreeAhead(std::size_t sensor, const Situation& s) {
+std::optional<double> FreeTowards(std::size_t sensor, Vec2 direction_body, const Situation& s) {
   const SensorView& view = s.own.ranges[sensor];
   const RobotModel& profile = s.own.options.profile;
   if (view.kind != Echo::kEcho || profile.sonar[sensor].position_body.x < 0) return std::nullopt;
+  const auto towards = [direction_body](Vec2 body) {
+    return Vec2{Dot(direction_body, body), Cross(direction_body, body)};
+  };
   const bool explained = (s.near.explained >> sensor & 1U) != 0;
   // A fresh peer's claim says more than its echo: decision_rules.cc, KeepClear.
   if (explained && s.own.options.behaviour == Behaviour::kCooperative) return std::nullopt;
   for (const PeerView& peer : s.near.peers) {
     if (!explained || (peer.explains >> sensor & 1U) == 0) continue;
-    return FreeBeforeDisc(InBody(s.own, WhereItStops(peer, s.own)),
+    return FreeBeforeDisc(towards(InBody(s.own, WhereItStops(peer, s.own))),
                           profile.body_radius_m + peer.peer->beacon.body_radius_m);
   }
   const Vec2 echo = profile.sonar[sensor].position_body +
                     RangeAhead(view, s.own) * s.own.cones.of[sensor].nearest_body;
-  return FreeBeforeDisc(echo, profile.body_radius_m);
+  return FreeBeforeDisc(towards(echo), profile.body_radius_m);
+}
+
+std::optional<double> FreeAhead(std::size_t sensor, const Situation& s) {
+  return FreeTowards(sensor, {1, 0}, s);
 }
 
 std::optional<double> FreeAlongFace(std::size_t sensor, double turns_rad, const Situation& s) {

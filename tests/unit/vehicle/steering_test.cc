@@ -232,6 +232,54 @@ TEST(Steering, WhatStopsAnAimlessVehicleIsTurnedAwayFrom) {
   EXPECT_LT(TwistFromWheels(PioneerP3dx().drive, out.command.target).turn_rad_s, 0);
 }
 
+// At 0.6 m/s with weak brakes, to a goal at that bearing, with one echo.
+struct Echoed {
+  int sensor;
+  double range_m;
+  double noise;
+};
+Outputs DrivesBeside(const Echoed& echo, double goal_rad) {
+  VehicleOptions options = test::DefaultOptions();
+  options.profile.deceleration_m_s2 = 0.22;
+  options.cruise_m_s = 0.6;
+  options.sonar_noise = echo.noise;
+  options.goal.at_world = {10 * Cos(goal_rad), 10 * Sin(goal_rad)};
+  test::BrainBench bench(options);
+  RangeScan scan = test::ClearScan(0);
+  test::SetEcho(&scan, echo.sensor, echo.range_m);
+  scan.wheels = test::Rolling(0.6);
+  return bench.Step(scan);
+}
+
+double SpeedOf(const Outputs& out) {
+  return TwistFromWheels(PioneerP3dx().drive, out.command.target).forward_m_s;
+}
+
+// From one_lane 150: what a sensor hears to its side goes on ahead. A vehicle turned towards a wall
+// at full speed, and turned on while it braked.
+TEST(Steering, TowardsAWallBesideItItSlowsDownBeforeItTurns) {
+  const Echoed wall{.sensor = 0, .range_m = 0.3, .noise = 0.01};
+  const Outputs towards = DrivesBeside(wall, 0.28);
+  EXPECT_EQ(towards.command.decision.rule, Rule::kObstacle);
+  EXPECT_LT(SpeedOf(towards), 0.56);
+  for (const double goal_rad : {0.0, -0.28}) {
+    EXPECT_EQ(DrivesBeside(wall, goal_rad).command.decision.rule, Rule::kCruise) << goal_rad;
+  }
+  const Echoed exact{.sensor = 0, .range_m = 0.3, .noise = 0};
+  EXPECT_EQ(DrivesBeside(exact, 0.28).command.decision.rule, Rule::kCruise);
+}
+
+// From door 279 and corridor 414: exact ultrasonics heard the wall, which was not straight ahead.
+TEST(Steering, TowardsWhatItHearsItSlowsDownBeforeItTurns) {
+  const Echoed corner{.sensor = 1, .range_m = 0.6, .noise = 0};
+  const Outputs towards = DrivesBeside(corner, 0.6);
+  EXPECT_EQ(towards.command.decision.rule, Rule::kObstacle);
+  EXPECT_LT(SpeedOf(towards), 0.56);
+  for (const double goal_rad : {0.0, -0.6}) {
+    EXPECT_EQ(DrivesBeside(corner, goal_rad).command.decision.rule, Rule::kCruise) << goal_rad;
+  }
+}
+
 // The range a sensor reports of a wall along y = wall_y_m, south of it: the nearest point within
 // its cone.
 double RangeToWall(const RobotModel& profile, std::size_t sensor, const Pose& world_from_body,

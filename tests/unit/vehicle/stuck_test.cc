@@ -98,6 +98,40 @@ TEST(Caught, ACircleIsLeftToTheSide) {
   EXPECT_GT(farthest_m, 0.1);
 }
 
+// From one_lane 69: along a heading without a goal a vehicle drove at 0.8 m/s across the lane, and
+// touched the wall on the other side.
+TEST(Caught, WhatStoppedItIsLeftAtWalkingPace) {
+  VehicleOptions options = test::DefaultOptions();
+  options.cruise_m_s = 0.6;
+  test::BrainBench bench(options);
+  const auto speed_m_s = [&options](const Outputs& out) {
+    return TwistFromWheels(options.profile.drive, out.command.target).forward_m_s;
+  };
+  RangeScan before_wall = test::ClearScan(0);
+  test::SetEcho(&before_wall, 1, 0.12);
+  Outputs out;
+  while (bench.Brain().State().progress.away_tick == kNoTick) {
+    ASSERT_LT(bench.NextTick(), 400U);
+    out = bench.Step(before_wall);
+  }
+  double fastest_m_s = 0;
+  for (std::uint32_t tick = 0; tick < 55; ++tick) {
+    RangeScan scan = test::ClearScan(0);
+    scan.wheels = out.command.target;
+    out = bench.Step(scan);
+    fastest_m_s = std::max(fastest_m_s, speed_m_s(out));
+  }
+  EXPECT_GT(fastest_m_s, 0.1);
+  EXPECT_LE(fastest_m_s, 0.2 + 1e-9);
+  // Then it drives to its goal again.
+  for (std::uint32_t tick = 0; tick < 100; ++tick) {
+    RangeScan scan = test::ClearScan(0);
+    scan.wheels = out.command.target;
+    out = bench.Step(scan);
+  }
+  EXPECT_GT(speed_m_s(out), 0.5);
+}
+
 // It makes no progress, but it turns: its sensors will see something new.
 TEST(Caught, WhoeverDrivesInCirclesIsNot) {
   EXPECT_TRUE(HeadingsTried(2000, Nobody, {2, 3}).empty());
