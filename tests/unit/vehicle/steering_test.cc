@@ -280,6 +280,31 @@ TEST(Steering, TowardsWhatItHearsItSlowsDownBeforeItTurns) {
   }
 }
 
+// What it decides after it has driven at 0.6 m/s and turned at that rate for a second, while a face
+// to its right came nearer by 0.18 m/s and is at that range now.
+Decision BesideASlantingFace(double turn_rad_s, double range_m) {
+  VehicleOptions options = test::DefaultOptions();
+  options.profile.deceleration_m_s2 = 0.22;
+  options.cruise_m_s = 0.6;
+  options.sonar_noise = 0.01;
+  test::BrainBench bench(options);
+  Outputs out;
+  for (int tick = 20; tick >= 0; --tick) {
+    RangeScan scan = test::ClearScan(0);
+    test::SetEcho(&scan, 7, range_m + 0.009 * tick);
+    scan.wheels = WheelsFromTwist(options.profile.drive, {0.6, turn_rad_s});
+    out = bench.Step(scan);
+  }
+  return out.command.decision;
+}
+
+// From one_lane 504 and 582: in a turn no slant counted, and a turn away counted as if it went on.
+TEST(Steering, AFaceThatSlantsCountsInATurnToo) {
+  EXPECT_EQ(BesideASlantingFace(0, 0.25).rule, Rule::kObstacle);
+  EXPECT_EQ(BesideASlantingFace(0.3, 0.25).rule, Rule::kObstacle);
+  EXPECT_EQ(BesideASlantingFace(0.3, 1.5).rule, Rule::kCruise);
+}
+
 // The range a sensor reports of a wall along y = wall_y_m, south of it: the nearest point within
 // its cone.
 double RangeToWall(const RobotModel& profile, std::size_t sensor, const Pose& world_from_body,
