@@ -280,13 +280,14 @@ TEST(Steering, TowardsWhatItHearsItSlowsDownBeforeItTurns) {
   }
 }
 
-// What it decides after it has driven at 0.6 m/s and turned at that rate for a second, while a face
-// to its right came nearer by 0.18 m/s and is at that range now.
+// What it decides after it has driven at 0.6 m/s and turned at that rate for a second, to a goal on
+// its left, while a face to its right came nearer by 0.18 m/s and is at that range now.
 Decision BesideASlantingFace(double turn_rad_s, double range_m) {
   VehicleOptions options = test::DefaultOptions();
   options.profile.deceleration_m_s2 = 0.22;
   options.cruise_m_s = 0.6;
   options.sonar_noise = 0.01;
+  options.goal.at_world = {10, 6};
   test::BrainBench bench(options);
   Outputs out;
   for (int tick = 20; tick >= 0; --tick) {
