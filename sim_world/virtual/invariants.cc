@@ -115,7 +115,7 @@ void Invariants::Observe(Tick tick, double time_s, std::span<const Observed> veh
   last_tick_ = tick;
   for (std::size_t i = 0; i < vehicles.size(); ++i) tracks_[i].rule = vehicles[i].decision.rule;
   for (const WorldEvent& event : events) {
-    if (event.kind == EventKind::kContact) JudgeContact(event);
+    if (event.kind == EventKind::kContact) JudgeContact(event, vehicles);
   }
   for (std::size_t i = 0; i < vehicles.size(); ++i) {
     const Observed& now = vehicles[i];
@@ -154,9 +154,15 @@ VehicleId Invariants::MoreAtFault(const WorldEvent& contact) const {
 }
 
 // A body that turns on the spot touches nothing, so in every contact a vehicle drove into the
-// other.
-void Invariants::JudgeContact(const WorldEvent& event) {
+// other; or a moving obstacle, which stops for nobody, drove into one that stood.
+void Invariants::JudgeContact(const WorldEvent& event, std::span<const Observed> vehicles) {
   const VehicleId at_fault = MoreAtFault(event);
+  const std::uint32_t index = IndexOf(at_fault);
+  const bool with_obstacle = IndexOf(event.vehicle) == kUnknown || IndexOf(event.other) == kUnknown;
+  if (with_obstacle && index != kUnknown && tracks_[index].last_forward_m_s == 0 &&
+      tracks_[index].last_position_world == vehicles[index].position_world) {
+    return;
+  }
   Report(Invariant::kContact, event.tick, at_fault,
          at_fault == event.vehicle ? event.other : event.vehicle);
 }

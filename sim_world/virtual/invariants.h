@@ -145,7 +145,7 @@ class Invariants {
   static Track TrackOf(const VehicleOptions& options);
   void NoteGap(Tick tick);
   void Report(Invariant invariant, Tick tick, VehicleId vehicle, VehicleId other = kNoVehicle);
-  void JudgeContact(const WorldEvent& event);
+  void JudgeContact(const WorldEvent& event, std::span<const Observed> vehicles);
   void JudgeStaleness(Tick tick, const Observed& now, Track* track);
   void JudgeStanding(Tick tick, std::span<const Observed> vehicles);
   void JudgeOrder(Tick tick, const Observed& now, Track* track);

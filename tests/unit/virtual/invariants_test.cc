@@ -97,6 +97,19 @@ TEST_F(InvariantsTest, AContactIsTheFaultOfWhoDrove) {
   EXPECT_EQ(invariants_->First()[0].tick, Tick{tick_});
 }
 
+// From mixed_yard 506: an obstacle that moves along the rim ran into a vehicle that stood there.
+TEST_F(InvariantsTest, WhatRunsIntoAStandingVehicleIsNotItsFault) {
+  const WorldEvent contact{.kind = EventKind::kContact, .vehicle = VehicleId{1}};
+  Vehicle(1).forward_m_s = 0;
+  Observe(2);
+  Observe({contact});
+  EXPECT_EQ(Count(Invariant::kContact), 0U);
+  // It sets off: the world has stopped it by the time it is seen.
+  Vehicle(1).position_world.x += 0.001;
+  Observe({contact});
+  EXPECT_EQ(Count(Invariant::kContact), 1U);
+}
+
 TEST_F(InvariantsTest, AContactWithAWallIsTheFaultOfTheOnlyVehicle) {
   Observe({{.kind = EventKind::kContact, .vehicle = VehicleId{3}}});
   EXPECT_EQ(invariants_->First()[0].vehicle, VehicleId{3});
