@@ -358,7 +358,7 @@ double MostTurnOf(const RobotModel& profile) {
 
 // How far it may go on once it has turned: before what was heard there, and before a face that it
 // hears to its side, which goes on further than it was heard. Exact ultrasonics hear all of a face.
-double FreeOnceTurned(double turned_rad, const Situation& s) {
+double FreeAfterTurn(double turned_rad, const Situation& s) {
   double free_m = s.own.slows_m;
   const Vec2 direction_body = {Cos(turned_rad), Sin(turned_rad)};
   const auto keep = [&free_m](std::optional<double> free) {
@@ -366,7 +366,7 @@ double FreeOnceTurned(double turned_rad, const Situation& s) {
   };
   const bool remembers = Remembers(s.own.options);
   for (const std::size_t i : BitsOf(s.own.ranges.Echoes())) {
-    keep(remembers ? FreeAlongFace(i, turned_rad, s) : FreeTowards(i, direction_body, s));
+    keep(remembers ? FreeAlongFace(i, turned_rad, s) : FreeOnceTurned(i, turned_rad, s));
   }
   keep(FreeOfPlaces(direction_body, s));
   return free_m;
@@ -375,8 +375,8 @@ double FreeOnceTurned(double turned_rad, const Situation& s) {
 // The highest speed at which the vehicle stops before what was heard where the turn leads to, by its
 // end or halfway; empty where the path straight on is no longer.
 std::optional<double> HeardLimitOfTurn(double turned_rad, const Situation& s) {
-  const double straight_m = FreeOnceTurned(0, s);
-  const double free_m = std::min(FreeOnceTurned(turned_rad / 2, s), FreeOnceTurned(turned_rad, s));
+  const double straight_m = FreeAfterTurn(0, s);
+  const double free_m = std::min(FreeAfterTurn(turned_rad / 2, s), FreeAfterTurn(turned_rad, s));
   if (free_m >= s.own.slows_m || free_m >= straight_m) return std::nullopt;
   return SpeedToStopWithin(free_m, s.own.reaction_s, s.own.options.profile.deceleration_m_s2);
 }

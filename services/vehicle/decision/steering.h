@@ -19,12 +19,12 @@ struct Steering {
 // tangent past it on the side nearer to the goal, its left when both are alike.
 Steering SteerToGoal(const Situation& s);
 
-// The highest speed at which the stopping path stays clear of every peer's claim if the vehicle
-// turns as `steering` says; empty where the turn does not shorten the free path straight on. A turn
-// is checked against the claims before it is made, as a speed is.
+// The highest speed at which the stopping path stays clear of every peer's claim, and of what the
+// ultrasonics hear, if the vehicle turns as `steering` says; empty where the turn does not shorten
+// the free path straight on. A turn is checked before it is made, as a speed is.
 struct TurnLimit {
   double max_speed_m_s = 0;
-  VehicleId peer = kNoVehicle;  // whose claim the turn leads to; kNoVehicle: to a heard place
+  VehicleId peer = kNoVehicle;  // whose claim the turn leads to; kNoVehicle: to what was heard
   Tick cause_tick = kNoTick;
 };
 std::optional<TurnLimit> LimitOfTurn(const Steering& steering, const Situation& s);

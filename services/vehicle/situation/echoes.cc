@@ -170,28 +170,46 @@ std::uint32_t EchoesOf(const CarriedPeer& peer, const OwnView& s) {
   return explains;
 }
 
-std::optional<double> FreeTowards(std::size_t sensor, Vec2 direction_body, const Situation& s) {
+namespace {
+
+// A direction to go in, and the ray in a cone that is nearest to it: unit vectors.
+struct Bearing {
+  Vec2 direction_body;
+  Vec2 ray_body;
+};
+
+std::optional<double> FreeTowards(const Bearing& bearing, std::size_t sensor, const Situation& s) {
   const SensorView& view = s.own.ranges[sensor];
   const RobotModel& profile = s.own.options.profile;
-  if (view.kind != Echo::kEcho || profile.sonar[sensor].position_body.x < 0) return std::nullopt;
-  const auto towards = [direction_body](Vec2 body) {
-    return Vec2{Dot(direction_body, body), Cross(direction_body, body)};
-  };
+  const Vec2 mount_body = profile.sonar[sensor].position_body;
+  if (view.kind != Echo::kEcho || mount_body.x < 0) return std::nullopt;
   const bool explained = (s.near.explained >> sensor & 1U) != 0;
   // A fresh peer's claim says more than its echo: decision_rules.cc, KeepClear.
   if (explained && s.own.options.behaviour == Behaviour::kCooperative) return std::nullopt;
+  const auto towards = [&bearing](Vec2 body) {
+    return Vec2{Dot(bearing.direction_body, body), Cross(bearing.direction_body, body)};
+  };
   for (const PeerView& peer : s.near.peers) {
     if (!explained || (peer.explains >> sensor & 1U) == 0) continue;
     return FreeBeforeDisc(towards(InBody(s.own, WhereItStops(peer, s.own))),
                           profile.body_radius_m + peer.peer->beacon.body_radius_m);
   }
-  const Vec2 echo = profile.sonar[sensor].position_body +
-                    RangeAhead(view, s.own) * s.own.cones.of[sensor].nearest_body;
-  return FreeBeforeDisc(towards(echo), profile.body_radius_m);
+  const Vec2 echo_body = mount_body + RangeAhead(view, s.own) * bearing.ray_body;
+  return FreeBeforeDisc(towards(echo_body), profile.body_radius_m);
 }
 
+}  // namespace
+
 std::optional<double> FreeAhead(std::size_t sensor, const Situation& s) {
-  return FreeTowards(sensor, {1, 0}, s);
+  return FreeTowards({{1, 0}, s.own.cones.of[sensor].nearest_body}, sensor, s);
+}
+
+std::optional<double> FreeOnceTurned(std::size_t sensor, double turned_rad, const Situation& s) {
+  const double half_rad = s.own.options.profile.sonar_half_angle_rad;
+  const double bearing_rad = s.own.cones.of[sensor].bearing_rad;
+  const double ray_rad = bearing_rad + std::clamp(turned_rad - bearing_rad, -half_rad, half_rad);
+  const Bearing bearing{{Cos(turned_rad), Sin(turned_rad)}, {Cos(ray_rad), Sin(ray_rad)}};
+  return FreeTowards(bearing, sensor, s);
 }
 
 std::optional<double> FreeAlongFace(std::size_t sensor, double turns_rad, const Situation& s) {

@@ -28,7 +28,8 @@ inline constexpr double kStandOff_m = 0.15;
 // in the swept path; a known peer's body counts by its place, anything else anywhere on the arc of
 // the cone. Empty if it cannot be in the path.
 std::optional<double> FreeAhead(std::size_t sensor, const Situation& s);
-std::optional<double> FreeTowards(std::size_t sensor, Vec2 direction_body, const Situation& s);
+// The same in the direction it has once it has turned by turned_rad to the left.
+std::optional<double> FreeOnceTurned(std::size_t sensor, double turned_rad, const Situation& s);
 
 // How far the vehicle may still go before its shell meets the face that sensor `sensor` hears, if
 // that comes nearer as it drives, or would once the vehicle has turned by turns_rad to the left. A
