@@ -55,8 +55,8 @@ std::optional<Proposal> HeardPlace(const Situation& s) {
 }
 
 // By how much it turns to the left from when echoes showed a slant, which is kClosingTime_s ago, to
-// when it stands, on average: brakes stop no turn before. Away from what is on that side it may stop
-// turning at any time.
+// when it stands, on average: brakes stop no turn before. Away from what is on that side it may
+// stop turning at any time.
 double TurnsWhileBraking(bool is_left, const OwnView& s) {
   const double stops_s = s.reaction_s + s.speed_m_s / s.options.profile.deceleration_m_s2;
   const bool towards = (s.turn_rad_s > 0) == is_left;

@@ -356,8 +356,8 @@ double MostTurnOf(const RobotModel& profile) {
   return std::min(profile.max_turn_rad_s / 2, kTurnWhileDriving_rad_s);
 }
 
-// How far it may go on once it has turned: before what was heard there, and before a face that it
-// hears to its side, which goes on further than it was heard. Exact ultrasonics hear all of a face.
+// How far it may drive once it has turned: before what was heard there, and before a face that it
+// hears to its side, which is longer than it was heard. Exact ultrasonics hear all of a face.
 double FreeAfterTurn(double turned_rad, const Situation& s) {
   double free_m = s.own.slows_m;
   const Vec2 direction_body = {Cos(turned_rad), Sin(turned_rad)};
@@ -372,8 +372,8 @@ double FreeAfterTurn(double turned_rad, const Situation& s) {
   return free_m;
 }
 
-// The highest speed at which the vehicle stops before what was heard where the turn leads to, by its
-// end or halfway; empty where the path straight on is no longer.
+// The highest speed at which the vehicle stops before what was heard where the turn leads to, by
+// its end or halfway; empty where the path straight on is no longer.
 std::optional<double> HeardLimitOfTurn(double turned_rad, const Situation& s) {
   const double straight_m = FreeAfterTurn(0, s);
   const double free_m = std::min(FreeAfterTurn(turned_rad / 2, s), FreeAfterTurn(turned_rad, s));

@@ -255,8 +255,8 @@ double SpeedOf(const Outputs& out) {
   return TwistFromWheels(PioneerP3dx().drive, out.command.target).forward_m_s;
 }
 
-// From one_lane 150: what a sensor hears to its side goes on ahead. A vehicle turned towards a wall
-// at full speed, and turned on while it braked.
+// From one_lane 150: a face to the side continues ahead of where a sensor hears it. A vehicle
+// turned towards a wall at full speed, and kept turning while it braked.
 TEST(Steering, TowardsAWallBesideItItSlowsDownBeforeItTurns) {
   const Echoed wall{.sensor = 0, .range_m = 0.3, .noise = 0.01};
   const Outputs towards = DrivesBeside(wall, 0.28);
@@ -299,7 +299,8 @@ Decision BesideASlantingFace(double turn_rad_s, double range_m) {
   return out.command.decision;
 }
 
-// From one_lane 504 and 582: in a turn no slant counted, and a turn away counted as if it went on.
+// From one_lane 504 and 582: in a turn no slant counted, and a turn away counted as if it never
+// ended.
 TEST(Steering, AFaceThatSlantsCountsInATurnToo) {
   EXPECT_EQ(BesideASlantingFace(0, 0.25).rule, Rule::kObstacle);
   EXPECT_EQ(BesideASlantingFace(0.3, 0.25).rule, Rule::kObstacle);
