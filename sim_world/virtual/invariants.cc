@@ -154,7 +154,7 @@ VehicleId Invariants::MoreAtFault(const WorldEvent& contact) const {
 }
 
 // A body that turns on the spot touches nothing, so in every contact a vehicle drove into the
-// other; or a moving obstacle, which never stops, drove into one that stood.
+// other; or a moving obstacle, which stops on contact alone, drove into one that stood.
 void Invariants::JudgeContact(const WorldEvent& event, std::span<const Observed> vehicles) {
   const VehicleId at_fault = MoreAtFault(event);
   const std::uint32_t index = IndexOf(at_fault);

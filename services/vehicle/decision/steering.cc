@@ -375,9 +375,8 @@ double FreeAfterTurn(double turned_rad, const Situation& s) {
 // The highest speed at which the vehicle stops before what was heard where the turn leads to, by
 // its end or halfway; empty where the path straight on is no longer.
 std::optional<double> HeardLimitOfTurn(double turned_rad, const Situation& s) {
-  const double straight_m = FreeAfterTurn(0, s);
   const double free_m = std::min(FreeAfterTurn(turned_rad / 2, s), FreeAfterTurn(turned_rad, s));
-  if (free_m >= s.own.slows_m || free_m >= straight_m) return std::nullopt;
+  if (free_m >= s.own.slows_m || free_m >= FreeAfterTurn(0, s)) return std::nullopt;
   return SpeedToStopWithin(free_m, s.own.reaction_s, s.own.options.profile.deceleration_m_s2);
 }
 

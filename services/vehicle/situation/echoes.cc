@@ -117,9 +117,10 @@ double RangeAhead(const SensorView& view, const OwnView& s) {
   return std::max(0.0, view.range_m - std::max(0.0, s.speed_m_s) * std::max(0.0, since_s));
 }
 
-// By how much the range of what a sensor hears shrinks with each metre driven, as its echoes show
-// where the own motion was steady; 0 where they show nothing.
-double ShownSlant(const SensorView& view, const OwnView& s) {
+// By how much the range of what a sensor hears shrinks with each metre driven, as its echoes show;
+// 0 where they show nothing. Of imperfect ultrasonics, which hear a face along its normal: a turn
+// on the spot changes that range by no more than the transducer moves.
+double ShownSlant(const SensorView& view) {
   constexpr double kDriven_m_s = 0.05;  // slower, echoes show no slant
   const double driven_m_s = view.own.forward_m_s;
   if (driven_m_s < kDriven_m_s) return 0;
@@ -219,7 +220,7 @@ std::optional<double> FreeAlongFace(std::size_t sensor, double turns_rad, const 
   const Vec2 axis_body = s.own.cones.of[sensor].axis_body;
   const bool explained = (s.near.explained >> sensor & 1U) != 0;
   if (view.kind != Echo::kEcho || explained || mount_body.x < 0) return std::nullopt;
-  const double slant = ShownSlant(view, s.own) + (axis_body.y > 0 ? turns_rad : -turns_rad);
+  const double slant = ShownSlant(view) + (axis_body.y > 0 ? turns_rad : -turns_rad);
   if (slant <= 0) return std::nullopt;
   const double since_s = EchoAge(view, s.own.tick, s.own.options.tick_period);
   const double range_m = view.range_m - std::max(0.0, view.closing_m_s) * since_s;

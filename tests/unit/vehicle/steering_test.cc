@@ -255,29 +255,27 @@ double SpeedOf(const Outputs& out) {
   return TwistFromWheels(PioneerP3dx().drive, out.command.target).forward_m_s;
 }
 
+// It slows down before it turns to that bearing, and neither straight on nor to the other side.
+void ExpectSlowsTowards(const Echoed& echo, double goal_rad) {
+  const Outputs towards = DrivesBeside(echo, goal_rad);
+  EXPECT_EQ(towards.command.decision.rule, Rule::kObstacle);
+  EXPECT_LT(SpeedOf(towards), 0.56);
+  for (const double other_rad : {0.0, -goal_rad}) {
+    EXPECT_EQ(DrivesBeside(echo, other_rad).command.decision.rule, Rule::kCruise) << other_rad;
+  }
+}
+
 // From one_lane 150: a face to the side continues ahead of where a sensor hears it. A vehicle
 // turned towards a wall at full speed, and kept turning while it braked.
 TEST(Steering, TowardsAWallBesideItItSlowsDownBeforeItTurns) {
-  const Echoed wall{.sensor = 0, .range_m = 0.3, .noise = 0.01};
-  const Outputs towards = DrivesBeside(wall, 0.28);
-  EXPECT_EQ(towards.command.decision.rule, Rule::kObstacle);
-  EXPECT_LT(SpeedOf(towards), 0.56);
-  for (const double goal_rad : {0.0, -0.28}) {
-    EXPECT_EQ(DrivesBeside(wall, goal_rad).command.decision.rule, Rule::kCruise) << goal_rad;
-  }
+  ExpectSlowsTowards({.sensor = 0, .range_m = 0.3, .noise = 0.01}, 0.28);
   const Echoed exact{.sensor = 0, .range_m = 0.3, .noise = 0};
   EXPECT_EQ(DrivesBeside(exact, 0.28).command.decision.rule, Rule::kCruise);
 }
 
 // From door 279 and corridor 414: exact ultrasonics heard the wall, which was not straight ahead.
 TEST(Steering, TowardsWhatItHearsItSlowsDownBeforeItTurns) {
-  const Echoed corner{.sensor = 1, .range_m = 0.6, .noise = 0};
-  const Outputs towards = DrivesBeside(corner, 0.6);
-  EXPECT_EQ(towards.command.decision.rule, Rule::kObstacle);
-  EXPECT_LT(SpeedOf(towards), 0.56);
-  for (const double goal_rad : {0.0, -0.6}) {
-    EXPECT_EQ(DrivesBeside(corner, goal_rad).command.decision.rule, Rule::kCruise) << goal_rad;
-  }
+  ExpectSlowsTowards({.sensor = 1, .range_m = 0.6, .noise = 0}, 0.6);
 }
 
 // What it decides after it has driven at 0.6 m/s and turned at that rate for a second, to a goal on
