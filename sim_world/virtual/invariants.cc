@@ -136,6 +136,13 @@ void Invariants::Observe(Tick tick, double time_s, std::span<const Observed> veh
   JudgeBodies(tick, time_s, vehicles, around);
 }
 
+void Invariants::NoteRestart() {
+  for (Track& track : tracks_) {
+    track.places = {};
+    track.stale = false;
+  }
+}
+
 void Invariants::NoteGap(Tick tick) {
   circle_ticks_ = 0;
   halted_ticks_ = 0;

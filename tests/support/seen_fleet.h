@@ -69,6 +69,17 @@ class SeenFleet : public testing::Test {
     Decide(id, Rule::kGiveWay, peer);
   }
 
+  // The world is restarted from its state that many ticks ago, and comes back under another epoch.
+  void RestartWorld(std::uint32_t ticks_ago) {
+    tick_ -= ticks_ago;
+    epoch_ = WorldEpoch{Number(epoch_) + 1};
+    for (Car& car : cars_) {
+      car.truth.epoch = epoch_;
+      car.beacon.world_epoch = epoch_;
+      car.status.epoch = epoch_;
+    }
+  }
+
   void Observe(std::vector<WorldEvent> events = {}) {
     ++tick_;
     link::Observed observed;
@@ -85,7 +96,7 @@ class SeenFleet : public testing::Test {
       if (car.speaks && car.status_comes) observed.statuses.push_back(car.status);
     }
     for (WorldEvent& event : events) {
-      event.epoch = kEpoch;
+      event.epoch = epoch_;
       event.tick = Tick{tick_};
       observed.events.push_back(event);
     }
@@ -103,6 +114,7 @@ class SeenFleet : public testing::Test {
   std::vector<Car> cars_;
   std::unique_ptr<InvariantWatch> watch_;
   std::uint32_t tick_ = 0;
+  WorldEpoch epoch_ = kEpoch;
 };
 
 }  // namespace giveway::fleetctl

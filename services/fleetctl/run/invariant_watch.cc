@@ -7,6 +7,9 @@
 namespace giveway::fleetctl {
 namespace {
 
+// Samples of a world that ended may come late, but not after so many others.
+constexpr std::size_t kPastEpochs = 16;
+
 sim::InvariantLimits LimitsFromOutside(const Scenario& scenario) {
   sim::InvariantLimits limits = sim::LimitsFor(scenario, VehicleObservation::kHeldTicks, true);
   limits.stale_ticks = VehicleObservation::kHeldTicks;
@@ -53,11 +56,29 @@ void InvariantWatch::Admit(const RosterEntry& entry) {
   spawns_[entry.vehicle] = entry.spawn;
 }
 
+bool InvariantWatch::IsOfAPastWorld(WorldEpoch epoch) const {
+  return std::ranges::find(past_epochs_, epoch) != past_epochs_.end();
+}
+
+// Which vehicles live is known from before: the world goes on with those.
+void InvariantWatch::Follow(const Truth& first) {
+  if (epoch_ != kNoEpoch) {
+    EvaluateUntil(newest_);
+    past_epochs_.push_back(epoch_);
+    if (past_epochs_.size() > kPastEpochs) past_epochs_.pop_front();
+    waits_at_s_ = first.time_s;
+    invariants_.NoteRestart();
+    for (auto& [vehicle, sight] : observations_) sight.Forget();
+  }
+  epoch_ = first.epoch;
+  newest_ = next_ = last_ = kNoTick;
+}
+
 void InvariantWatch::FoldTruth(const Truth& truth) {
-  if (epoch_ == kNoEpoch) epoch_ = truth.epoch;
+  if (!IsOfThisWorld(truth.epoch) && !IsOfAPastWorld(truth.epoch)) Follow(truth);
   if (!IsOfThisWorld(truth.epoch)) return;
   newest_ = std::max(newest_, truth.tick);
-  if (next_ == kNoTick && truth.time_s > 0) {
+  if (next_ == kNoTick && truth.time_s > waits_at_s_ && truth.tick > judged_) {
     next_ = truth.tick;
     first_time_s_ = truth.time_s;
     first_ = truth.tick;
@@ -77,7 +98,10 @@ void InvariantWatch::FoldEvent(const WorldEvent& event) {
 
 void InvariantWatch::EvaluateUntil(Tick last) {
   if (last_ != kNoTick) last = std::min(last, last_);
-  for (; next_ != kNoTick && next_ <= last; next_ = After(next_, 1)) Evaluate(next_);
+  for (; next_ != kNoTick && next_ <= last; next_ = After(next_, 1)) {
+    Evaluate(next_);
+    judged_ = next_;
+  }
 }
 
 double InvariantWatch::TimeOf(Tick tick) const {

@@ -4,6 +4,9 @@
 // A tick is judged kLagTicks later, when all its samples have arrived. A tick with missing samples
 // is left out and counted, because a check must report what it did not see.
 //
+// A world that was restarted goes on under another epoch, from ticks it had already passed: what was
+// seen of its ticks before is judged and let go, and the new ones are judged from its first step on.
+//
 // Limits are wider than in a virtual run without loss, each for its own cause:
 //  - brains miss beacons and scans as they do with a lossy radio: LimitsFor;
 //  - an observation may be VehicleObservation::kHeldTicks old: a wait cycle or a halt of all
@@ -12,6 +15,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <vector>
 
@@ -43,6 +47,8 @@ class InvariantWatch {
  private:
   void Admit(const RosterEntry& entry);
   void FoldTruth(const Truth& truth);
+  bool IsOfAPastWorld(WorldEpoch epoch) const;
+  void Follow(const Truth& first);
   void FoldEvent(const WorldEvent& event);
   bool IsOfThisWorld(WorldEpoch epoch) const { return epoch == epoch_; }
   void EvaluateUntil(Tick last);
@@ -55,10 +61,13 @@ class InvariantWatch {
   sim::Invariants invariants_;
   std::map<VehicleId, VehicleObservation> observations_;
   std::map<VehicleId, std::uint32_t> spawns_;  // of vehicles that the scenario does not name
-  WorldEpoch epoch_ = kNoEpoch;                // of the first world heard
-  Tick newest_ = kNoTick;                      // of any truth
+  WorldEpoch epoch_ = kNoEpoch;                // of the newest world heard
+  std::deque<WorldEpoch> past_epochs_;         // the last ones before it
+  double waits_at_s_ = 0;                      // that world's time until its first step
+  Tick newest_ = kNoTick;                      // of any truth of it
   Tick next_ = kNoTick;                        // to be judged; kNoTick before the start
-  Tick first_ = kNoTick;                       // that was judged, and
+  Tick judged_ = kNoTick;                      // the newest, of any world: never one twice
+  Tick first_ = kNoTick;                       // of this world that was judged, and
   double first_time_s_ = 0;                    // its time since the start signal
   Tick last_ = kNoTick;                        // the run's, once it has ended
   std::vector<WorldEvent> events_;             // not given to the invariants yet

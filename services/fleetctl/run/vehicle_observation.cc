@@ -22,7 +22,7 @@ Around<T> AroundOf(const std::deque<T>& list, Tick tick, Tick T::*when) {
 
 // Removes all elements up to `tick` except the last of them.
 template <typename T>
-void ForgetBefore(std::deque<T>* list, Tick tick, Tick T::*when) {
+void DropBefore(std::deque<T>* list, Tick tick, Tick T::*when) {
   while (list->size() > 1 && (*list)[1].*when <= tick) list->pop_front();
 }
 
@@ -101,10 +101,16 @@ bool VehicleObservation::AddDecision(Tick tick, sim::Observed* seen) const {
   return true;
 }
 
-void VehicleObservation::Forget(Tick before) {
-  ForgetBefore(&truths_, before, &Truth::tick);
-  ForgetBefore(&beacons_, before, &BeaconRecord::at);
-  ForgetBefore(&status_, before, &VehicleStatus::tick);
+void VehicleObservation::ForgetBefore(Tick tick) {
+  DropBefore(&truths_, tick, &Truth::tick);
+  DropBefore(&beacons_, tick, &BeaconRecord::at);
+  DropBefore(&status_, tick, &VehicleStatus::tick);
+}
+
+void VehicleObservation::Forget() {
+  truths_.clear();
+  beacons_.clear();
+  status_.clear();
 }
 
 std::optional<sim::Observed> VehicleObservation::At(Tick tick) {
@@ -112,7 +118,7 @@ std::optional<sim::Observed> VehicleObservation::At(Tick tick) {
   const bool known = AddBody(tick, &seen) && (!seen.present || AddDecision(tick, &seen));
   // A beacon of this tick may answer an older scan, and is looked up in the statuses by that.
   constexpr std::uint32_t kKept = 64;
-  if (Number(tick) > kKept) Forget(Tick{Number(tick) - kKept});
+  if (Number(tick) > kKept) ForgetBefore(Tick{Number(tick) - kKept});
   return known ? std::optional(seen) : std::nullopt;
 }
 

@@ -35,6 +35,8 @@ class VehicleObservation {
   void Take(const VehicleStatus& status);
   // From the world's events: the process is gone, or back.
   void SetLives(bool lives) { lives_ = lives; }
+  // What was seen of it; ticks may start again.
+  void Forget();
 
   // nullopt if it is not known. Query ticks in order: older data is dropped.
   std::optional<sim::Observed> At(Tick tick);
@@ -51,7 +53,7 @@ class VehicleObservation {
   bool AddDecision(Tick tick, sim::Observed* seen) const;
   Tick Answered(const BeaconRecord& last, const BeaconRecord* next, Tick tick) const;
   Decision DecisionOf(const Beacon& beacon) const;
-  void Forget(Tick before);
+  void ForgetBefore(Tick tick);
 
   VehicleId vehicle_;
   DriveGeometry drive_;

@@ -58,6 +58,54 @@ TEST_F(InvariantWatchTest, AContactBreaksARunThatHadPassed) {
   EXPECT_THAT(ToTable(report, 80), HasSubstr("first contact at tick 6"));
 }
 
+TEST_F(InvariantWatchTest, AContactAfterTheWorldCameBackBreaksTheRun) {
+  Observe(30);
+  RestartWorld(3);
+  Observe(20);
+  Observe({{.kind = EventKind::kContact, .vehicle = one_, .other = two_}});
+  Observe(20);
+  watch_->Finish(false);
+  EXPECT_EQ(Count(Invariant::kContact), 1U);
+}
+
+TEST_F(InvariantWatchTest, NothingIsWrongInTheTicksThatAWorldRunsTwice) {
+  Observe(30);
+  RestartWorld(4);
+  Observe(30);
+  watch_->Finish(false);
+  EXPECT_TRUE(Held());
+  EXPECT_EQ(watch_->TicksJudged(), 56U);
+  EXPECT_EQ(watch_->TicksUnseen(), 0U);
+}
+
+TEST_F(InvariantWatchTest, AWorldThatCameBackIsJudgedFromItsFirstStepOn) {
+  Observe(30);
+  RestartWorld(0);
+  for (int i = 0; i < 10; ++i) {  // it waits for its vehicles
+    Of(one_).truth.tick = Of(two_).truth.tick = Tick{++tick_};
+    link::Observed waiting;
+    waiting.truths = {Of(one_).truth, Of(two_).truth};
+    watch_->Fold(waiting);
+  }
+  Observe(20);
+  watch_->Finish(false);
+  EXPECT_EQ(watch_->TicksJudged(), 50U);
+}
+
+TEST_F(InvariantWatchTest, WhatAWorldBeforeSaidLateIsNotHeard) {
+  Observe(30);
+  link::Observed late;
+  late.truths = {Of(one_).truth};
+  RestartWorld(0);
+  Observe(20);
+  watch_->Fold(late);
+  Observe({{.kind = EventKind::kContact, .vehicle = one_, .other = two_}});
+  Observe(20);
+  watch_->Finish(false);
+  EXPECT_EQ(Count(Invariant::kContact), 1U);
+  EXPECT_EQ(watch_->TicksJudged(), 70U);  // by its first truth it may still wait
+}
+
 TEST_F(InvariantWatchTest, WhoDrivesPastARedLightBreaksTheRun) {
   scenario_.signals = {{.id = SignalId{1},
                         .line_from_world = {0, -1},
