@@ -96,8 +96,8 @@ class Invariants {
   // starts again.
   void Observe(Tick tick, double time_s, std::span<const Observed> vehicles,
                std::span<const WorldEvent> events, const Surroundings& around = {});
-  // The world was restarted from a state some ticks old: what was published before does not belong to
-  // the places in it. The next tick is a later one all the same.
+  // The world was restarted from a state some ticks old: what was published before does not belong
+  // to the places in it. The next tick is a later one all the same.
   void NoteRestart();
   // At the end of the run: which vehicles have not arrived? In a closed one, is any live?
   void Finish(Tick tick, std::span<const Observed> vehicles);

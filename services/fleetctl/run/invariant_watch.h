@@ -4,8 +4,9 @@
 // A tick is judged kLagTicks later, when all its samples have arrived. A tick with missing samples
 // is left out and counted, because a check must report what it did not see.
 //
-// A world that was restarted goes on under another epoch, from ticks it had already passed: what was
-// seen of its ticks before is judged and let go, and the new ones are judged from its first step on.
+// A world that was restarted goes on under another epoch, from ticks it had already passed: what
+// was seen of its ticks before is judged and let go, and the new ones are judged from its first
+// step on.
 //
 // Limits are wider than in a virtual run without loss, each for its own cause:
 //  - brains miss beacons and scans as they do with a lossy radio: LimitsFor;

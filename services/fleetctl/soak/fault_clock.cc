@@ -5,9 +5,12 @@
 
 namespace giveway::fleetctl {
 
-FaultClock::FaultClock(std::span<const faults::Fault> schedule) : schedule_(schedule) {
+FaultClock::FaultClock(std::span<const faults::Fault> schedule,
+                       const std::function<bool(const faults::Fault&)>& follows)
+    : schedule_(schedule) {
   for (std::size_t i = 0; i < schedule.size(); ++i) {
     const faults::Fault& fault = schedule[i];
+    if (follows && !follows(fault)) continue;
     edges_.push_back({i, fault.at_s, true});
     if (fault.for_s > 0) edges_.push_back({i, fault.EndsAt_s(), false});
     last_end_s_ = std::max(last_end_s_, fault.EndsAt_s());

@@ -1,8 +1,10 @@
-// Reports which faults of a schedule start and end as time advances. Injects none itself. Pure.
+// Reports which faults of a schedule start and end as time advances: the supervisor's own time, or
+// the world's, which stands while the world is gone. Injects none itself. Pure.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,8 +23,9 @@ struct FaultEdge {
 
 class FaultClock {
  public:
-  // `schedule` outlives this.
-  explicit FaultClock(std::span<const faults::Fault> schedule);
+  // Of those faults alone, or of all. `schedule` outlives this.
+  explicit FaultClock(std::span<const faults::Fault> schedule,
+                      const std::function<bool(const faults::Fault&)>& follows = {});
 
   // The edges that are due at `now_s` and were not returned before, in order of time. At equal
   // times ends come first.

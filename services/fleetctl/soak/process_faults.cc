@@ -139,6 +139,10 @@ std::vector<MemberId> ProcessFaults::MembersOf(const Target& target) const {
   return members;
 }
 
+bool ProcessFaults::IsAimedAt(const faults::Fault& fault, MemberId member) const {
+  return std::ranges::count(MembersOf(fault.target), member) > 0;
+}
+
 const MemberCommand* ProcessFaults::CommandOf(MemberId member) const {
   const auto found = std::ranges::find(tools_.commands, member, &MemberCommand::member);
   return found == tools_.commands.end() ? nullptr : &*found;
@@ -151,10 +155,13 @@ std::string ProcessFaults::EffectOf(const faults::Fault& fault) const {
     const std::string effect = EffectOn(fault, member);
     if (!effect.empty()) return effect;
   }
-  if (fault.kind == Kind::kChurn && churned_ > 0) {
-    return fmt::format("{} processes came and were killed", churned_);
-  }
   return {};
+}
+
+std::string ProcessFaults::EffectAtEndOf(const faults::Fault& fault) const {
+  const auto churn = churns_.find(&fault);
+  if (churn == churns_.end() || churn->second.killed == 0) return {};
+  return fmt::format("{} processes came and were killed", churn->second.killed);
 }
 
 std::string ProcessFaults::EffectOn(const faults::Fault& fault, MemberId member) const {
@@ -258,9 +265,11 @@ void ProcessFaults::BeginOn(const faults::Fault& fault, MemberId member) {
   if (CommandOf(member) == nullptr || !processes_->IsRunning(member)) return;
   const faults::Parameters& with = fault.parameters;
   switch (fault.kind) {
+    case Kind::kQosMismatch:
+      to_start_.insert(member);
+      [[fallthrough]];
     case Kind::kKill:
     case Kind::kRestart:
-    case Kind::kQosMismatch:
       away_[member] = &fault;
       processes_->Kill(member);
       break;
@@ -311,6 +320,7 @@ void ProcessFaults::EndOn(const faults::Fault& fault, MemberId member) {
       if (const auto away = away_.find(member); away != away_.end() && away->second == &fault) {
         if (processes_->IsRunning(member)) processes_->Kill(member);
         away_.erase(away);
+        to_start_.erase(member);
         returning_.insert(member);
       }
       break;
@@ -345,25 +355,16 @@ void ProcessFaults::EndOn(const faults::Fault& fault, MemberId member) {
 
 void ProcessFaults::Turn(SteadyTime now, double time_s) {
   time_s_ = time_s;
-  std::erase_if(returning_, [this](MemberId member) {
-    if (!processes_->EndOf(member)) return false;
-    processes_->Restart(CommandNow(member));
-    return true;
-  });
-  for (auto& [member, away] : away_) {
-    // Gone as planned: it returns at once, with a set that matches no other.
-    if (away->kind == Kind::kQosMismatch && !processes_->IsRunning(member) &&
-        processes_->EndOf(member)) {
-      MemberCommand command = CommandNow(member);
-      SetFlag(&command.child.words, "--qos", ResolveQosFile(away->parameters.qos));
-      processes_->Restart(std::move(command));
-    }
+  // Gone as planned. One that ends again, in a mismatch too, is restarted like any other.
+  for (std::set<MemberId>* const gone : {&to_start_, &returning_}) {
+    std::erase_if(*gone, [this](MemberId member) {
+      if (!processes_->EndOf(member)) return false;
+      processes_->Restart(CommandNow(member));
+      return true;
+    });
   }
   for (auto& [member, slow] : slow_) TurnSlow(member, now, &slow);
   for (auto& [fault, churn] : churns_) TurnChurn(now, &churn);
-  std::erase_if(churns_, [](const auto& churn) {
-    return churn.second.left == 0 && churn.second.process == nullptr;
-  });
   for (auto& [fault, doubles] : doubles_) {
     for (const auto& process : doubles) process->Poll();
   }
@@ -373,6 +374,10 @@ void ProcessFaults::Turn(SteadyTime now, double time_s) {
 MemberCommand ProcessFaults::CommandNow(MemberId member) const {
   MemberCommand command = *CommandOf(member);
   if (member.kind != MemberKind::kVehicle) return command;
+  const auto away = away_.find(member);
+  if (away != away_.end() && away->second->kind == Kind::kQosMismatch) {
+    SetFlag(&command.child.words, "--qos", ResolveQosFile(away->second->parameters.qos));
+  }
   DropFlag(&command.child.words, "--impair");
   const std::string impair = tools_.impairment_since(VehicleId{member.number}, time_s_);
   if (impair.empty()) return command;
@@ -422,11 +427,12 @@ void ProcessFaults::TurnChurn(SteadyTime now, Churn* churn) {
   if (churn->process) {
     churn->process->Poll();
     if (now < churn->until && churn->process->IsRunning()) return;
+    churn->killed += churn->process->IsRunning() ? 1 : 0;
     churn->process.reset();  // kills it
   }
   if (churn->left == 0) return;
-  const auto any = std::ranges::find_if(
-      tools_.commands, [](const MemberCommand& command) { return command.member != kTheWorld; });
+  const auto any = std::ranges::find(tools_.commands, MemberKind::kVehicle,
+                                     [](const MemberCommand& of) { return of.member.kind; });
   if (any == tools_.commands.end()) return;
   const std::uint32_t id = kFirstChurnId + churned_++;
   churn->process = StartBeside(any->member, id, fmt::format("passer-by {}", id));

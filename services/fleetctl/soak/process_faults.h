@@ -66,17 +66,19 @@ class ProcessFaults {
   }
   // The orders to take another profile set that ended since the last call.
   std::vector<QosOrders::Ended> TakeEndedOrders() { return orders_.TakeEnded(); }
-  // How to start a member that has just ended.
+  // True if the fault concerns this very process.
+  bool IsAimedAt(const faults::Fault& fault, MemberId member) const;
+  // How to start a member that has just ended: with the set of an active mismatch.
   MemberCommand CommandNow(MemberId member) const;
   // The visible effect of an active fault: process stopped, gone, limited. Empty if none is
   // visible, or if it is visible elsewhere.
   std::string EffectOf(const faults::Fault& fault) const;
+  // The same of a fault that is about to end, as far as only all of it shows.
+  std::string EffectAtEndOf(const faults::Fault& fault) const;
   // The faults, by index in the schedule, that caused the member's planned end.
   std::vector<std::size_t> KillersOf(MemberId member, const faults::Schedule& schedule) const;
   // Killed permanently.
   bool IsAwayForGood(MemberId member) const;
-  // The number of churn processes started so far.
-  std::uint32_t Churned() const { return churned_; }
 
  private:
   struct Slow {
@@ -86,6 +88,7 @@ class ProcessFaults {
   };
   struct Churn {
     std::uint32_t left = 0;
+    std::uint32_t killed = 0;  // of those that came, which ran until then
     std::unique_ptr<ChildProcess> process;
     SteadyTime until{0};
   };
@@ -109,6 +112,7 @@ class ProcessFaults {
   FaultTools tools_;
   FleetProcesses* processes_;
   std::map<MemberId, const faults::Fault*> away_;
+  std::set<MemberId> to_start_;   // killed at the start of a mismatch, to come back with its set
   std::set<MemberId> returning_;  // killed, to be restarted when the fault is over
   std::map<const faults::Fault*, std::string> shm_effects_;
   std::map<MemberId, Slow> slow_;

@@ -170,6 +170,12 @@ std::vector<ResourceSlope> ResourceSeries::Slopes() const {
   return slopes;
 }
 
+std::vector<ResourceSlope> ResourceSeries::EndedSlopes() const {
+  std::vector<ResourceSlope> slopes = ended_;
+  MarkLeaks(&slopes, rows_dropped_);
+  return slopes;
+}
+
 void MarkLeaks(std::vector<ResourceSlope>* rows, std::size_t more) {
   std::vector<double> chances;
   for (const ResourceSlope& row : *rows) chances.push_back(row.slope.chance);

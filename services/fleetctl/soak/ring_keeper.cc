@@ -57,6 +57,10 @@ RingKeeper::RingKeeper(const link::LinkOptions& options, const std::string& key,
       folder_(std::move(folder)),
       ring_(ring) {
   for (const VehicleId vehicle : fleet_) link_.Seek(vehicle);
+  // A resumed soak keeps those of the fleet before, which its report may name.
+  for (const auto& [vehicle, files] : FilesIn(folder_)) {
+    for (const RingFile& file : files) kept_files_.insert(file.path);
+  }
 }
 
 void RingKeeper::Keep(SteadyTime now, double time_s) {

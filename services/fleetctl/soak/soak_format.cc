@@ -39,8 +39,23 @@ std::string FormatVersion(const SoakVersions& versions) {
 
 std::string FormatFaults(const SoakResult& result) {
   const auto observed = std::ranges::count(result.faults, true, &SoakFault::observed);
-  return fmt::format("{} of {} seen by their effect, {} skipped", observed, result.faults.size(),
-                     result.skipped_faults.size());
+  std::string text = fmt::format(
+      "{} of {} seen by their effect, {} skipped",
+      std::max<std::uint64_t>(result.faults_observed, static_cast<std::uint64_t>(observed)),
+      std::max<std::uint64_t>(result.faults_counted, result.faults.size()),
+      result.skipped_faults.size());
+  if (result.faults_counted > result.faults.size()) {
+    text += fmt::format("; the first {} by kind:", result.faults.size());
+  }
+  return text;
+}
+
+std::string FormatViolations(const SoakResult& result) {
+  std::string text = fmt::format("{}", result.violations_counted);
+  const std::uint64_t ticks = result.ticks_judged + result.ticks_unseen;
+  if (ticks == 0) return text;
+  return text +
+         fmt::format("; every invariant judged in {} of {} ticks", result.ticks_judged, ticks);
 }
 
 std::string SlopeSummary(const SoakResult& result) {
@@ -174,7 +189,7 @@ std::vector<SummaryRow> SummaryOf(const SoakResult& result) {
                           FormatSpan(result.planned_s), result.vehicles, result.domain, result.seed,
                           result.virtual_time ? ", virtual time" : "")},
       {"faults", FormatFaults(result)},
-      {"violations", fmt::format("{}", result.violations_counted)},
+      {"violations", FormatViolations(result)},
       {"near misses", fmt::format("{}", result.near_misses_counted)},
       {"narrowest margin", FormatMargin(result)},
       {"slopes", SlopeSummary(result) +

@@ -195,6 +195,10 @@ void ReadEvents(const schema::SoakReport& message, SoakResult* result, Complaint
   result->near_misses_counted =
       CountOf(message.near_misses_counted(), "near_misses_counted", complaints);
   result->modes_counted = CountOf(message.modes_counted(), "modes_counted", complaints);
+  result->ticks_judged = CountOf(message.ticks_judged(), "ticks_judged", complaints);
+  result->ticks_unseen = CountOf(message.ticks_unseen(), "ticks_unseen", complaints);
+  result->faults_counted = CountOf(message.faults_counted(), "faults_counted", complaints);
+  result->faults_observed = CountOf(message.faults_observed(), "faults_observed", complaints);
 }
 
 void ReadFigures(const schema::SoakReport& message, SoakResult* result, Complaints* complaints) {

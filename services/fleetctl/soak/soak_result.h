@@ -19,6 +19,7 @@ namespace giveway::fleetctl {
 inline constexpr std::size_t kMostListed = 5000;
 // With a larger share of pauses of the machine nothing is judged.
 inline constexpr double kMostPausedShare = 0.02;
+inline constexpr const char* kTooBusy = "machine_too_busy";  // the reason then
 
 enum class SoakVerdict : std::uint8_t {
   kPassed,
@@ -187,9 +188,14 @@ struct SoakResult {
   std::string command;  // that reproduces it
 
   std::vector<SoakFault> faults;            // by at_s
+  std::uint64_t faults_counted = 0;         // including those not listed, and
+  std::uint64_t faults_observed = 0;        // of them, those seen by their effect
   std::vector<std::string> skipped_faults;  // that the host cannot inject, with the reason
   std::vector<SoakViolation> violations;    // by time_s
   std::uint64_t violations_counted = 0;     // including those not listed
+  // Ticks in which every invariant was judged, and those of which too little was seen for that.
+  std::uint64_t ticks_judged = 0;
+  std::uint64_t ticks_unseen = 0;
   std::vector<NearMiss> near_misses;
   std::uint64_t near_misses_counted = 0;
   std::vector<ModeChange> modes;

@@ -31,7 +31,7 @@ struct FaultCourse {
   std::optional<SteadyTime> recovered;  // after its end all that it affected recovered
 };
 
-// A process ended unexpectedly.
+// A process ended by itself, and none of its faults may have ended it.
 struct UnplannedEnd {
   double time_s = 0;  // since the start signal
   MemberId member;
@@ -50,14 +50,18 @@ struct SoakSeen {
   SteadyTime started_at{0};
   double lasted_s = 0;               // since the start signal
   std::vector<FaultCourse> courses;  // of each fault of the schedule
-  std::vector<UnplannedEnd> ends;
-  std::uint32_t restarts = 0;  // after those
+  std::vector<UnplannedEnd> ends;    // the first ones
+  std::uint32_t restarts = 0;        // after all of those
   // When each live vehicle had recovered after the last fault's end, seconds; absent: never.
   std::map<VehicleId, std::optional<double>> healing;
   // For each live vehicle: the longest time without a status of it since the last fault ended.
   std::map<VehicleId, double> silent_s;
   std::vector<BrokenInvariant> broken;  // the first ones
   std::uint64_t broken_counted = 0;
+  // Ticks of the world for which every invariant was judged, and those of which too little was
+  // seen.
+  std::uint64_t ticks_judged = 0;
+  std::uint64_t ticks_unseen = 0;
   std::vector<NearMiss> near_misses;
   std::uint64_t near_misses_counted = 0;
   std::vector<ModeChange> modes;

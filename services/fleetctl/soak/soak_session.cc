@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/process/interrupts.h"
@@ -22,10 +23,12 @@ constexpr Nanoseconds kTurn = milliseconds(50);
 constexpr Nanoseconds kUntilAllDrive = seconds(60);
 constexpr Nanoseconds kSampleEvery = seconds(1);
 constexpr Nanoseconds kProgressEvery = seconds(10);
+constexpr Nanoseconds kWorldGone = seconds(60);  // its time stands: it is not waited for any more
 constexpr Nanoseconds kLeaveGrace = seconds(2);
 constexpr Nanoseconds kTermGrace = seconds(3);
 constexpr std::uint64_t kSharedMemoryEvery = 10;  // samples: it requires reading every map
 constexpr std::size_t kMostEnds = 256;            // kept with their last lines
+constexpr unsigned kConcluding_s = 60;            // the report of a large fleet, and a slow disk
 
 link::LinkOptions ObserverOf(const FleetSpec& spec, const Scenario& scenario) {
   return {spec.domain,
@@ -49,6 +52,14 @@ std::string ProcessName(MemberId member) {
   if (member == kTheWorld) return "world";
   return member.kind == MemberKind::kVehicle ? fmt::format("vehicle-{}", member.number)
                                              : NameOf(member);
+}
+
+}  // namespace
+
+namespace {
+
+bool IsOfWorld(const faults::Fault& fault) {
+  return faults::ActorOf(fault.kind) == faults::Actor::kWorld;
 }
 
 }  // namespace
@@ -92,7 +103,8 @@ SoakSession::SoakSession(const FleetSpec& spec, const Scenario& scenario,
       processes_(tools.commands),
       attackers_({tools.attacker, tools.domain, tools.interface}),
       faults_(std::move(tools), &processes_),
-      clock_(schedule),
+      clock_(schedule, std::not_fn(IsOfWorld)),
+      world_clock_(schedule, IsOfWorld),
       resources_(phases.faults_from_s),
       course_(
           fleet_, [this](VehicleId vehicle) { return faults_.IsAway(MemberOf(vehicle)); },
@@ -115,16 +127,20 @@ SoakSeen SoakSession::Run(const Saved& save) {
   if (seen_.started) {
     std::fprintf(stderr, "%zu vehicles drive; faults from %.0f to %.0f s, verdict at %.0f s\n",
                  fleet_.size(), phases_.faults_from_s, phases_.faults_until_s, phases_.end_s);
-    while (Interrupts::Count() == 0 && watch_.TimeSeconds(SteadyNow()) < phases_.end_s) {
+    while (Interrupts::Count() == 0 && !IsOver(SteadyNow())) {
       Turn();
       CarryOut(clock_.TakeDue(watch_.TimeSeconds(SteadyNow())));
+      CarryOut(world_clock_.TakeDue(WorldSeconds()));
     }
   }
   seen_.interrupted = Interrupts::Count() > 0;
   seen_.lasted_s = watch_.TimeSeconds(SteadyNow());
   CarryOut(clock_.EndAll(seen_.lasted_s));
+  CarryOut(world_clock_.EndAll(WorldSeconds()));
   Stop();
+  Interrupts::AllowSeconds(kConcluding_s);  // its count is not asked any more
   invariants_.Finish(false);
+  NoteBroken();
   if (black_box_) black_box_->Finish();
   Gather(&seen_);
   seen_.slopes = resources_.Slopes();
@@ -133,11 +149,10 @@ SoakSeen SoakSession::Run(const Saved& save) {
 
 void SoakSession::Gather(SoakSeen* seen) const {
   seen->courses.assign(watch_.Courses().begin(), watch_.Courses().end());
-  const sim::Invariants& judged = invariants_.Judged();
-  seen->broken_counted = judged.Broken();
-  for (const sim::Violation& broken : judged.First()) {
-    seen->broken.push_back({TimeOfTick(broken.tick), broken});
-  }
+  seen->broken = broken_;
+  seen->broken_counted = invariants_.Judged().Broken();
+  seen->ticks_judged = invariants_.TicksJudged();
+  seen->ticks_unseen = invariants_.TicksUnseen();
   seen->near_misses = near_.Narrowest();
   seen->near_misses_counted = near_.Count();
   seen->timing = timing_;
@@ -189,6 +204,7 @@ void SoakSession::Turn() {
   turned_ = now;
   Drain();
   processes_.Poll();
+  NoteEnds();  // before any is started again
   faults_.Turn(now, watch_.TimeSeconds(now));
   attackers_.Turn();
   for (const VehicleId vehicle : fleet_) {
@@ -196,7 +212,6 @@ void SoakSession::Turn() {
   }
   NoteProcessEffects();
   HearLines();
-  NoteEnds();
   RestartThoseThatEnded(SteadyNow());
   Sample(now);
   FollowCourse(now);
@@ -207,17 +222,47 @@ void SoakSession::Turn() {
 
 void SoakSession::Drain() {
   const link::Observed observed = observer_.Take();
+  FollowWorld(observed, SteadyNow());
   watch_.Fold(observed, SteadyNow());
   invariants_.Fold(observed);
+  NoteBroken();
   near_.Fold(observed.truths);
   if (black_box_) black_box_->Fold(observed, SteadyNow());
   for (const VehicleStatus& status : observed.statuses) {
     timing_.Fold(status, watch_.TimeSeconds(SteadyNow()));
     accounting_.Fold(status);
   }
-  if (!observed.truths.empty()) any_truth_ = observed.truths.back();
   if (watch_.HasStarted() && seen_.started_at == SteadyTime{0}) {
     seen_.started_at = SteadyNow() - FromSeconds(watch_.TimeSeconds(SteadyNow()));
+  }
+}
+
+void SoakSession::FollowWorld(const link::Observed& observed, SteadyTime now) {
+  if (observed.truths.empty()) return;
+  const Truth& newest = observed.truths.back();
+  if (!any_truth_ || newest.time_s > any_truth_->time_s) world_moved_ = now;
+  any_truth_ = newest;
+  truth_at_ = now;
+}
+
+double SoakSession::WorldSeconds() const { return any_truth_ ? any_truth_->time_s : 0; }
+
+// Its time falls behind by as long as it is gone, and the faults it carries out with it.
+bool SoakSession::IsOver(SteadyTime now) const {
+  if (watch_.TimeSeconds(now) < phases_.end_s) return false;
+  return WorldSeconds() >= phases_.end_s || now - world_moved_ > kWorldGone;
+}
+
+bool SoakSession::AreFaultsOver(SteadyTime now) const {
+  return watch_.TimeSeconds(now) >= clock_.LastEnd_s() &&
+         WorldSeconds() >= world_clock_.LastEnd_s();
+}
+
+// At once: ticks of another world start again, and its time lags.
+void SoakSession::NoteBroken() {
+  const auto first = invariants_.Judged().First();
+  for (std::size_t i = broken_.size(); i < first.size(); ++i) {
+    broken_.push_back({TimeOfTick(first[i].tick), first[i]});
   }
 }
 
@@ -245,10 +290,10 @@ void SoakSession::CarryOut(std::span<const FaultEdge> edges) {
       faults_.Begin(fault);
       attackers_.Begin(fault);
     } else {
-      faults_.End(fault);
-      if (const std::string sent = attackers_.EffectOf(fault); !sent.empty()) {
-        watch_.NoteEffect(edge.fault, sent);
+      for (const std::string& done : {faults_.EffectAtEndOf(fault), attackers_.EffectOf(fault)}) {
+        if (!done.empty()) watch_.NoteEffect(edge.fault, done);
       }
+      faults_.End(fault);
       attackers_.End(fault);
       watch_.NoteEnd(edge.fault, SteadyNow());
     }
@@ -305,14 +350,19 @@ void SoakSession::NoteEnds() {
       }
       continue;
     }
-    if (seen_.ends.size() < kMostEnds) {
-      const auto& said = processes_.LastLines(end.member);
-      seen_.ends.push_back({watch_.TimeSeconds(SteadyNow()),
-                            end.member,
-                            Describe(end.how),
-                            {said.begin(), said.end()}});
+    const auto aimed = [&](const faults::Fault& fault) {
+      return faults_.IsAimedAt(fault, end.member);
+    };
+    if (!watch_.MayEndProcess(aimed, SteadyNow())) {
+      ++seen_.restarts;
+      if (seen_.ends.size() < kMostEnds) {
+        const auto& said = processes_.LastLines(end.member);
+        seen_.ends.push_back({watch_.TimeSeconds(SteadyNow()),
+                              end.member,
+                              Describe(end.how),
+                              {said.begin(), said.end()}});
+      }
     }
-    ++seen_.restarts;
     restart_at_[end.member] = backoff_.StartOf(end.member, SteadyNow());
   }
 }
@@ -350,13 +400,13 @@ double SoakSession::TimeOfTick(Tick tick) const {
   if (!any_truth_) return 0;
   const double ticks =
       static_cast<double>(Number(tick)) - static_cast<double>(Number(any_truth_->tick));
-  return any_truth_->time_s + ticks * tick_period_s_;
+  return std::max(0.0, watch_.TimeSeconds(truth_at_) + ticks * tick_period_s_);
 }
 
 void SoakSession::FollowCourse(SteadyTime now) {
   if (!watch_.HasStarted() || stopping_) return;
   course_.NoteModes(watch_, now, &seen_);
-  if (!seen_.started || watch_.TimeSeconds(now) < clock_.LastEnd_s()) return;
+  if (!seen_.started || !AreFaultsOver(now)) return;
   course_.SeekHealing(watch_, now, &seen_);
 }
 
@@ -368,10 +418,11 @@ void SoakSession::ShowProgress(SteadyTime now) {
   const auto unwell = watch_.Unwell(now);
   std::string names;
   for (const VehicleId vehicle : unwell) names += fmt::format(" {}", Number(vehicle));
-  std::fprintf(
-      stderr, "%6.0f of %.0f s  faults %zu of %zu, %zu active  invariants broken %lu%s%s\n",
-      watch_.TimeSeconds(now), phases_.end_s, begun, schedule_.size(), clock_.UnderWay().size(),
-      invariants_.Judged().Broken(), names.empty() ? "" : "  not driving:", names.c_str());
+  std::fprintf(stderr,
+               "%6.0f of %.0f s  faults %zu of %zu, %zu active  invariants broken %lu%s%s\n",
+               watch_.TimeSeconds(now), phases_.end_s, begun, schedule_.size(),
+               clock_.UnderWay().size() + world_clock_.UnderWay().size(),
+               invariants_.Judged().Broken(), names.empty() ? "" : "  not driving:", names.c_str());
 }
 
 // The world first, so that it announces the end and the vehicles leave gracefully.

@@ -52,7 +52,12 @@ class SoakSession {
   const StallMonitor& Stalls() const { return stalls_; }
 
  private:
-  double TimeOfTick(Tick tick) const;  // since the start signal
+  double TimeOfTick(Tick tick) const;  // since the start signal, by this clock
+  double WorldSeconds() const;         // since the start signal, by the world's
+  bool AreFaultsOver(SteadyTime now) const;
+  bool IsOver(SteadyTime now) const;
+  void FollowWorld(const link::Observed& observed, SteadyTime now);
+  void NoteBroken();
   void Gather(SoakSeen* seen) const;
   void SaveIfDue(SteadyTime now);
   bool WaitUntilAllDrive();
@@ -83,6 +88,7 @@ class SoakSession {
   RestartBackoff backoff_;
   std::map<MemberId, SteadyTime> restart_at_;  // of those that ended by themselves
   FaultClock clock_;
+  FaultClock world_clock_;  // of the faults that the world carries out, by its own time
   ResourceSeries resources_;
   FleetCourse course_;
   PauseMeter pauses_;
@@ -95,6 +101,9 @@ class SoakSession {
   std::uint64_t broken_before_ = 0;    // when rings were last kept
   double tick_period_s_;
   std::optional<Truth> any_truth_;
+  SteadyTime truth_at_{0};
+  SteadyTime world_moved_{0};  // when its time last advanced
+  std::vector<BrokenInvariant> broken_;
   SoakSeen seen_;
   std::uint64_t samples_ = 0;
   SteadyTime turned_{0};

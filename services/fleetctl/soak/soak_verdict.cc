@@ -59,6 +59,21 @@ std::optional<std::size_t> FaultBehind(std::span<const faults::Fault> schedule,
   return injected ? injected : any;
 }
 
+bool IsSeparating(Kind kind) {
+  return AsOfStopwatch(kind) || kind == Kind::kQosMismatch || kind == Kind::kOneWayCut ||
+         kind == Kind::kPartition || kind == Kind::kFlapping;
+}
+
+// While it lasts the peer does not hear the target, or does nothing itself.
+bool Separates(const faults::Fault& fault, VehicleId peer, VehicleId target) {
+  const bool all = fault.target.what == Target::What::kAll;
+  if (!all && fault.target.what != Target::What::kVehicle) return false;
+  const bool at_peer = all || fault.target.vehicle == peer;
+  const VehicleId from = fault.parameters.from.value_or(target);
+  if (fault.kind == Kind::kOneWayCut) return at_peer && from == target;
+  return IsSeparating(fault.kind) && (at_peer || fault.target.vehicle == target);
+}
+
 class SoakEvaluation {
  public:
   SoakEvaluation(const SoakEvidence& evidence, SoakResult* result)
@@ -73,6 +88,8 @@ class SoakEvaluation {
     CheckSlowLoops();
     CheckTiming();
     CheckAccounting();
+    result_.ticks_judged = from_.seen.ticks_judged;
+    result_.ticks_unseen = from_.seen.ticks_unseen;
     result_.near_misses = from_.seen.near_misses;
     result_.near_misses_counted = from_.seen.near_misses_counted;
     result_.modes = from_.seen.modes;
@@ -103,16 +120,50 @@ class SoakEvaluation {
         {time_s, vehicle, other, std::move(invariant), std::move(words), std::move(fault)});
   }
 
-  std::vector<Expected> Promised(const faults::Fault& fault) const {
-    return from_.by_processes ? ExpectedOf(fault, from_.limits) : std::vector<Expected>();
+  std::vector<Expected> Promised(std::size_t fault) const {
+    if (!from_.by_processes) return {};
+    std::vector<Expected> expected = ExpectedOf(from_.schedule[fault], from_.limits);
+    if (!expected.empty() && !SomePeerHears(fault)) expected.clear();
+    return expected;
+  }
+
+  // False if at its start every peer was silenced or cut off itself: none can notice.
+  bool SomePeerHears(std::size_t fault) const {
+    const FaultCourse& course = from_.seen.courses[fault];
+    if (from_.fleet.empty() || !course.began) return true;
+    std::vector<std::size_t> others;
+    for (const std::size_t i : separating_) {
+      if (from_.schedule[i].at_s > from_.schedule[fault].at_s) break;
+      if (i != fault && Lasts(i, *course.began)) others.push_back(i);
+    }
+    const VehicleId target = from_.schedule[fault].target.vehicle;
+    return std::ranges::any_of(from_.fleet, [&](VehicleId peer) {
+      return peer != target && std::ranges::none_of(others, [&](std::size_t i) {
+               return Separates(from_.schedule[i], peer, target);
+             });
+    });
+  }
+
+  // Until what it concerned has recovered: a process that comes back must find its peers again.
+  bool Lasts(std::size_t fault, SteadyTime at) const {
+    const FaultCourse& course = from_.seen.courses[fault];
+    if (!course.began || *course.began > at) return false;
+    return !course.ended || !course.recovered || *course.recovered >= at;
   }
 
   void CheckFaults() {
     for (std::size_t i = 0; i < from_.schedule.size(); ++i) {
-      result_.faults.push_back(FaultOf(from_.schedule[i], from_.seen.courses[i]));
+      if (IsSeparating(from_.schedule[i].kind)) separating_.push_back(i);
     }
     for (std::size_t i = 0; i < from_.schedule.size(); ++i) {
-      EvaluateFault(from_.schedule[i], from_.seen.courses[i], result_.faults[i]);
+      promised_.push_back(Promised(i));
+      result_.faults.push_back(FaultOf(i));
+    }
+    result_.faults_counted = result_.faults.size();
+    result_.faults_observed =
+        static_cast<std::uint64_t>(std::ranges::count(result_.faults, true, &SoakFault::observed));
+    for (std::size_t i = 0; i < from_.schedule.size(); ++i) {
+      EvaluateFault(i, result_.faults[i]);
     }
     std::uint32_t planned = 0;
     for (const faults::Fault& fault : from_.schedule) {
@@ -122,7 +173,9 @@ class SoakEvaluation {
     result_.restarts_unplanned = from_.seen.restarts;
   }
 
-  SoakFault FaultOf(const faults::Fault& fault, const FaultCourse& course) const {
+  SoakFault FaultOf(std::size_t number) const {
+    const faults::Fault& fault = from_.schedule[number];
+    const FaultCourse& course = from_.seen.courses[number];
     SoakFault entry{.rule = fault.rule,
                     .nth = fault.nth,
                     .at_s = fault.at_s,
@@ -141,7 +194,7 @@ class SoakEvaluation {
       if (!entry.noticed_after_s || after_s < *entry.noticed_after_s)
         entry.noticed_after_s = after_s;
     }
-    for (const Expected& expected : Promised(fault)) {
+    for (const Expected& expected : promised_[number]) {
       const double within_s = Seconds(expected.within);
       entry.promised_s = std::min(entry.promised_s.value_or(within_s), within_s);
     }
@@ -152,8 +205,9 @@ class SoakEvaluation {
   }
 
   // A fault that was cut off by the end of the run is not reported.
-  void EvaluateFault(const faults::Fault& fault, const FaultCourse& course,
-                     const SoakFault& entry) {
+  void EvaluateFault(std::size_t number, const SoakFault& entry) {
+    const faults::Fault& fault = from_.schedule[number];
+    const FaultCourse& course = from_.seen.courses[number];
     if (!course.began) return;
     if (!entry.observed) {
       AddViolation(fault.at_s, fault.target.vehicle, "effect",
@@ -163,7 +217,7 @@ class SoakEvaluation {
     const bool lasted = !course.ended || fault.for_s <= 0 ||
                         Seconds(*course.ended - *course.began) >= fault.for_s * 0.9;
     if (!lasted) return;
-    for (const Expected& expected : Promised(fault)) {
+    for (const Expected& expected : promised_[number]) {
       EvaluateDetection(fault, course, expected, NameOf(entry));
     }
   }
@@ -194,20 +248,17 @@ class SoakEvaluation {
     result_.violations_counted += from_.seen.broken_counted - from_.seen.broken.size();
   }
 
-  // A lowered limit may end a process.
   void CheckEnds() {
     for (const UnplannedEnd& end : from_.seen.ends) {
-      const VehicleId vehicle{end.member.number};
-      const auto behind = Behind(vehicle, end.time_s);
-      const Kind kind = behind ? from_.schedule[*behind].kind : Kind::kKill;
-      if (behind && (kind == Kind::kMemoryLimit || kind == Kind::kDescriptorLimit ||
-                     kind == Kind::kQosMismatch)) {
-        continue;
-      }
+      const bool of_vehicle = end.member.kind == MemberKind::kVehicle;
+      const VehicleId vehicle = of_vehicle ? VehicleId{end.member.number} : kNoVehicle;
       std::string words = fmt::format("{} ended: {}", NameOf(end.member), end.how);
       if (!end.last_lines.empty()) words += "; the last it said: " + end.last_lines.back();
       AddViolation(end.time_s, vehicle, "process_ended", std::move(words));
     }
+    // Of those that were not listed only the number is known.
+    result_.violations_counted +=
+        from_.seen.restarts - std::min<std::uint64_t>(from_.seen.restarts, from_.seen.ends.size());
   }
 
   void CheckHealing() {
@@ -326,7 +377,7 @@ class SoakEvaluation {
     }
     if (result_.pauses.share > kMostPausedShare) {
       result_.verdict = SoakVerdict::kNotRun;
-      result_.reasons.insert(result_.reasons.begin(), "machine_too_busy");
+      result_.reasons.insert(result_.reasons.begin(), kTooBusy);
     } else if (result_.violations_counted > 0) {
       result_.verdict = SoakVerdict::kFailed;
     } else {
@@ -336,6 +387,8 @@ class SoakEvaluation {
 
   const SoakEvidence& from_;
   SoakResult& result_;
+  std::vector<std::vector<Expected>> promised_;  // of each fault: what must report it
+  std::vector<std::size_t> separating_;          // the faults that do
 };
 
 }  // namespace

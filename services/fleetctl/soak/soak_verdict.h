@@ -19,7 +19,8 @@ struct SoakEvidence {
   Limits limits;  // the promises of the profile set
   // The longest pause of the machine between two times of the run.
   std::function<Nanoseconds(SteadyTime, SteadyTime)> longest_pause;
-  bool by_processes = true;  // else nothing is known of events of the middleware
+  bool by_processes = true;      // else nothing is known of events of the middleware
+  std::vector<VehicleId> fleet;  // who may notice that a peer falls silent; empty: any
 };
 
 // What must report a fault to peers, and within what time: its target falls silent for longer. Not

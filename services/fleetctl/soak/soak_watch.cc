@@ -51,8 +51,8 @@ std::uint64_t CountOf(Kind kind, const VehicleStatus& status) {
       return status.packets.Of(PacketDrop::kNotRtps);
     case Kind::kMalformed:
       return MalformedOf(status.packets);
-    default:
-      return status.impaired.Dropped();
+    default:  // a cut; other faults drop packets meanwhile for their own causes
+      return status.impaired.dropped_blackout;
   }
 }
 
@@ -270,6 +270,17 @@ void SoakWatch::SeekRecovery(SteadyTime now) {
     if (of_one && (view == views_.end() || view->second.status_at <= *course.ended)) continue;
     if (of_one ? IsWell(target.vehicle, now) : AreAllWell(now)) course.recovered = now;
   }
+}
+
+bool SoakWatch::MayEndProcess(const std::function<bool(const faults::Fault&)>& aimed,
+                              SteadyTime now) const {
+  return std::ranges::any_of(open_, [&](std::size_t i) {
+    const Kind kind = schedule_[i].kind;
+    const bool ends_some =
+        kind == Kind::kMemoryLimit || kind == Kind::kDescriptorLimit || kind == Kind::kQosMismatch;
+    const std::optional<SteadyTime>& ended = courses_[i].ended;
+    return ends_some && (!ended || now <= *ended + kAfterwards) && aimed(schedule_[i]);
+  });
 }
 
 double SoakWatch::HighestStepP99_us(VehicleId vehicle) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -50,6 +51,9 @@ class SoakWatch {
   bool IsWell(VehicleId vehicle, SteadyTime now) const;
   // Every vehicle that is not away. False if none is left.
   bool AreAllWell(SteadyTime now) const;
+  // Whether a fault that is aimed at a process may have ended it just now: a lowered limit, or a
+  // set that matches no other; also a little after it was taken back.
+  bool MayEndProcess(const std::function<bool(const faults::Fault&)>& aimed, SteadyTime now) const;
   // Who is not, and not away.
   std::vector<VehicleId> Unwell(SteadyTime now) const;
   std::uint32_t Living() const;

@@ -153,6 +153,10 @@ schema::SoakReport SchemaOf(const SoakResult& result) {
   schema::SoakReport message;
   WriteHead(result, &message);
   WriteAll(result.faults, [&message] { return message.add_faults(); });
+  message.set_faults_counted(AsDouble(result.faults_counted));
+  message.set_faults_observed(AsDouble(result.faults_observed));
+  message.set_ticks_judged(AsDouble(result.ticks_judged));
+  message.set_ticks_unseen(AsDouble(result.ticks_unseen));
   for (const std::string& skipped : result.skipped_faults) {
     message.add_skipped_faults(WellFormed(skipped));
   }

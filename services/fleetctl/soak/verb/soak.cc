@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <initializer_list>
 #include <optional>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -56,6 +57,7 @@ constexpr unsigned kWriting_s = 60;
 struct Prepared {
   std::string scenario_file;
   std::string faults_file;  // the concrete list
+  std::string logs_folder;
   std::string qos_file;
   Scenario scenario;
   std::vector<VehicleId> fleet;
@@ -116,6 +118,15 @@ void Sift(const SoakOptions& options, const Scenario& scenario, Prepared* prepar
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
+// Before anything starts: a process that cannot read its set would only end again and again.
+void RefuseUnsoundSets(const faults::Schedule& schedule) {
+  std::set<std::string> names;
+  for (const faults::Fault& fault : schedule) names.insert(fault.parameters.qos);
+  names.erase("");
+  names.erase(std::string(faults::kPatientReaders));
+  for (const std::string& name : names) static_cast<void>(ReadSoundQos(ResolveQosFile(name)));
+}
+
 Scenario LoadAndCheck(const SoakOptions& options) {
   const Scenario scenario =
       LoadScenario(options.scenario, {options.seed, std::nullopt, std::nullopt});
@@ -138,12 +149,14 @@ Prepared Prepare(const SoakOptions& options) {
   prepared.fleet = SoakFleet(as_shipped, prepared.newcomers);
   prepared.schedule = LoadAndExpandFaults(options.faults, course, prepared.fleet).schedule;
   Sift(options, as_shipped, &prepared);
-  ForgetSoFar(options.report_folder);
+  RefuseUnsoundSets(prepared.schedule);
+  ForgetSoak(options.report_folder);
 
   CheckFolder(options.report_folder);
   const fs::path folder(options.report_folder);
   if (!options.in_virtual_time) {
-    CheckFolder((folder / "logs").string());
+    prepared.logs_folder = (folder / "logs").string();
+    CheckFolder(prepared.logs_folder);
     CheckFolder((folder / "impair").string());
   }
   if (Records(options)) CheckFolder((folder / "recordings").string());
@@ -176,10 +189,10 @@ FleetSpec SpecOf(const SoakOptions& options, const Prepared& prepared, const Dom
       FreeServerAddresses(options.discovery_servers, options.interface);
   spec.options.admin_key = key.File();
   spec.options.vehicles = prepared.newcomers;
-  spec.options.logs_folder = (folder / "logs").string();
+  spec.options.logs_folder = prepared.logs_folder;
   if (Records(options)) spec.options.record_folder = (folder / "recordings").string();
   if (options.ring_s > 0) spec.options.record_ring = std::to_string(options.ring_s);
-  spec.extra_words[kTheWorld] = {"--checkpoint", (folder / "world.checkpoint").string(), "--faults",
+  spec.extra_words[kTheWorld] = {"--checkpoint", (folder / kCheckpointFile).string(), "--faults",
                                  prepared.faults_file};
   for (const VehicleId vehicle : prepared.fleet) {
     spec.extra_words[MemberOf(vehicle)] = {"--stay", "--hang-on-signal", "--no-watchdog",
@@ -290,14 +303,15 @@ const VehicleOptions& AnyVehicle(const Scenario& scenario) {
   return scenario.spawns.empty() ? scenario.vehicles.front() : scenario.spawns.front();
 }
 
-int Conclude(const SoakOptions& options, const SoakResult& result) {
+// `finished`: there is nothing left to resume.
+int Conclude(const SoakOptions& options, const SoakResult& result, bool finished) {
   std::fputs((options.json ? ToJson(result) + "\n" : ForTerminal(ToText(result))).c_str(), stdout);
   const bool written = std::fflush(stdout) == 0;
   Interrupts::AllowSeconds(kWriting_s);
   const int code = std::max(ExitCode(result.verdict), written ? 0 : 1);
   return WriteAfterVerdict(code, [&] {
     WriteSoakReport(result, options.report_folder);
-    ForgetSoFar(options.report_folder);
+    if (finished) ForgetSoFar(options.report_folder);
   });
 }
 
@@ -320,7 +334,7 @@ int SoakVirtually(const SoakOptions& options) {
   EvaluateSoak(
       {seen, prepared.schedule, {}, [](SteadyTime, SteadyTime) { return Nanoseconds{0}; }, false},
       &result);
-  return Conclude(options, result);
+  return Conclude(options, result, true);
 }
 
 // `whole` is the soak of which this is the rest, if any.
@@ -349,7 +363,8 @@ int SoakProcesses(const SoakOptions& options, const Prepared& prepared, const So
     EvaluateSoak({seen, prepared.schedule, limits,
                   [&session](SteadyTime from, SteadyTime to) {
                     return session.Stalls().LongestPause(from, to);
-                  }},
+                  },
+                  true, prepared.fleet},
                  &result);
     return whole == nullptr ? result : Joined(*whole, result);
   };
@@ -365,7 +380,12 @@ int SoakProcesses(const SoakOptions& options, const Prepared& prepared, const So
     return UntilNextSave(saver.LastCost());
   });
   saver.Finish();
-  return Conclude(options, judged(seen));
+  const bool finished = whole == nullptr || seen.started;
+  if (!finished) {
+    std::fprintf(stderr, "the rest did not start: fleetctl soak --resume %s starts it once more\n",
+                 options.report_folder.c_str());
+  }
+  return Conclude(options, judged(seen), finished);
 }
 
 // The arguments of the rest: files of the folder, and figures observed so far.
@@ -398,11 +418,13 @@ int Resume(const SoakOptions& asked) {
       LoadAndExpandFaults(options.faults, course, prepared.fleet).schedule;
   prepared.schedule = RestOf(whole, so_far.ran_s, prepared.phases.faults_from_s, &prepared.skipped);
   Sift(options, prepared.scenario, &prepared);
-  prepared.faults_file =
-      (folder / fmt::format("faults.rest-{}.textproto", so_far.resumed_at_s.size() + 1)).string();
+  const std::string rest = fmt::format("rest-{}", so_far.resumed_at_s.size() + 1);
+  prepared.logs_folder = (folder / "logs" / rest).string();  // those of the fleet before stay
+  CheckFolder(prepared.logs_folder);
+  prepared.faults_file = (folder / ("faults." + rest + ".textproto")).string();
   WriteFile(prepared.faults_file, faults::AsTextproto(prepared.schedule));
   // A new fleet: the old world's times and places are no longer valid.
-  fs::remove(folder / "world.checkpoint");
+  fs::remove(folder / kCheckpointFile);
   std::fprintf(stderr, "resuming at %.0f of %.0f s\n", so_far.ran_s, so_far.planned_s);
   return SoakProcesses(options, prepared, &so_far);
 }

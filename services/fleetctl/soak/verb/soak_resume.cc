@@ -32,6 +32,14 @@ void AppendLater(const std::vector<Item>& more, double by_s, std::vector<Item>* 
   }
 }
 
+void AppendSlopes(const std::vector<ResourceSlope>& more, double by_s,
+                  std::vector<ResourceSlope>* slopes) {
+  for (ResourceSlope row : more) {
+    for (statistics::Sample& sample : row.curve) sample.time_s += by_s;
+    slopes->push_back(std::move(row));
+  }
+}
+
 void AppendFaults(const SoakResult& rest, double by_s, SoakResult* joined) {
   std::erase_if(joined->faults, [by_s](const SoakFault& fault) { return fault.at_s >= by_s; });
   for (SoakFault fault : rest.faults) {
@@ -54,6 +62,9 @@ void JoinHistograms(const SoakResult& rest, SoakResult* joined) {
 
 void JoinCounts(const SoakResult& rest, double by_s, SoakResult* joined) {
   joined->violations_counted += rest.violations_counted;
+  joined->ticks_judged += rest.ticks_judged;
+  joined->ticks_unseen += rest.ticks_unseen;
+  joined->faults_observed += rest.faults_observed;
   joined->near_misses_counted += rest.near_misses_counted;
   joined->modes_counted += rest.modes_counted;
   joined->lives_too_short += rest.lives_too_short;
@@ -72,18 +83,29 @@ void JoinCounts(const SoakResult& rest, double by_s, SoakResult* joined) {
   if (narrower) joined->narrowest_margin = margin;
 }
 
-// The verdict of the rest, except that a promise that was broken before stays broken.
+bool WasTooBusy(const SoakResult& result) {
+  return result.verdict == SoakVerdict::kNotRun && result.pauses.share > kMostPausedShare;
+}
+
+// The verdict of the rest, except that a promise that was broken before stays broken, and that the
+// machine's pauses are those of both.
 void JoinVerdicts(const SoakResult& rest, SoakResult* joined) {
-  joined->verdict = rest.verdict;
+  const bool ended_early = joined->ran_s < joined->planned_s;
+  joined->verdict = !WasTooBusy(rest) ? rest.verdict
+                    : ended_early     ? SoakVerdict::kInterrupted
+                                      : SoakVerdict::kPassed;
+  const bool not_run = joined->verdict == SoakVerdict::kNotRun;
   std::map<std::string, std::uint64_t> by_kind;
   for (const SoakViolation& broken : joined->violations) ++by_kind[broken.invariant];
   joined->reasons.clear();
-  if (rest.verdict == SoakVerdict::kNotRun) joined->reasons = rest.reasons;
+  if (not_run) joined->reasons = rest.reasons;
   for (const auto& [kind, count] : by_kind) {
     joined->reasons.push_back(fmt::format("{}: {}", kind, count));
   }
-  if (joined->violations_counted > 0 && rest.verdict != SoakVerdict::kNotRun) {
-    joined->verdict = SoakVerdict::kFailed;
+  if (joined->violations_counted > 0 && !not_run) joined->verdict = SoakVerdict::kFailed;
+  if (joined->pauses.share > kMostPausedShare && !not_run) {
+    joined->verdict = SoakVerdict::kNotRun;
+    joined->reasons.insert(joined->reasons.begin(), kTooBusy);
   }
   for (const double at_s : joined->resumed_at_s) {
     joined->reasons.push_back(fmt::format("resumed at {:.0f} s", at_s));
@@ -99,6 +121,14 @@ std::string SaveSoFar(const std::string& so_far, const std::string& folder) {
 void ForgetSoFar(const std::string& folder) {
   std::error_code error;
   std::filesystem::remove(FileIn(folder), error);
+}
+
+void ForgetSoak(const std::string& folder) {
+  ForgetSoFar(folder);
+  for (const char* const file : {kCheckpointFile, "report.json", "report.html"}) {
+    std::error_code error;
+    std::filesystem::remove(std::filesystem::path(folder) / file, error);
+  }
 }
 
 SoakResult LoadSoFar(const std::string& folder) {
@@ -141,7 +171,7 @@ SoakResult Joined(const SoakResult& so_far, const SoakResult& rest) {
   AppendLater(rest.near_misses, by_s, &joined.near_misses);
   AppendLater(rest.modes, by_s, &joined.modes);
   AppendLater(rest.kept_rings, by_s, &joined.kept_rings);
-  Append(rest.slopes, &joined.slopes);
+  AppendSlopes(rest.slopes, by_s, &joined.slopes);
   Append(rest.accounting, &joined.accounting);
   JoinHistograms(rest, &joined);
   JoinCounts(rest, by_s, &joined);

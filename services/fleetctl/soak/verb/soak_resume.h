@@ -10,11 +10,17 @@
 
 namespace giveway::fleetctl {
 
+// In the report folder: the world's, while it runs.
+inline constexpr const char* kCheckpointFile = "world.checkpoint";
+
 // Replaces what was saved before with the JSON of a SoakResult. Returns the reason of a failure, as
 // on a full disk; empty: none.
 std::string SaveSoFar(const std::string& so_far, const std::string& folder);
 // It has reached its verdict: there is nothing to continue.
 void ForgetSoFar(const std::string& folder);
+// What an earlier soak left in the folder: its state, its world's, and its report. Another soak
+// must neither continue from it nor seem to have its verdict.
+void ForgetSoak(const std::string& folder);
 // Throws InputError if the folder has no soak that can be resumed.
 SoakResult LoadSoFar(const std::string& folder);
 

@@ -154,6 +154,8 @@ class VirtualSoak {
     const double now_s = Time_s();
     const Tick now = fleet_.World().Now();
     seen_.broken_counted = invariants_.Broken();
+    seen_.ticks_judged =
+        static_cast<std::uint64_t>(std::llround(now_s / Seconds(scenario_.tick_period)));
     for (const sim::Violation& broken : invariants_.First()) {
       const double ago_s = TicksBetween(broken.tick, now) * Seconds(scenario_.tick_period);
       seen_.broken.push_back({std::max(0.0, now_s - ago_s), broken});

@@ -41,6 +41,13 @@ TEST(FaultClock, KnowsWhatIsUnderWay) {
   EXPECT_THAT(clock.UnderWay(), ElementsAre(0));
 }
 
+TEST(FaultClock, FollowsTheFaultsItIsGiven) {
+  const faults::Schedule schedule{FaultAt(1, 5), FaultAt(2, 1)};
+  FaultClock clock(schedule, [](const faults::Fault& fault) { return fault.at_s > 1; });
+  EXPECT_THAT(clock.TakeDue(2), ElementsAre(FaultEdge{1, 2, true}));
+  EXPECT_DOUBLE_EQ(clock.LastEnd_s(), 3);
+}
+
 TEST(FaultClock, EndsEarlyWhatIsUnderWayAndBeginsNothingMore) {
   const faults::Schedule schedule{FaultAt(1, 5), FaultAt(9, 1)};
   FaultClock clock(schedule);

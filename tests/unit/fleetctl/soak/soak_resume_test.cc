@@ -76,11 +76,47 @@ TEST(SoakResume, WhatWasBrokenBeforeStaysBroken) {
   first.violations_counted = 1;
   EXPECT_EQ(Joined(first, SampleSoak(2)).verdict, SoakVerdict::kFailed);
   EXPECT_THAT(Joined(first, SampleSoak(2)).reasons, ElementsAre("contact: 1", "resumed at 180 s"));
-  SoakResult busy = SampleSoak(2);
-  busy.verdict = SoakVerdict::kNotRun;
-  busy.reasons = {"machine_too_busy"};
-  EXPECT_EQ(Joined(first, busy).verdict, SoakVerdict::kNotRun);
-  EXPECT_EQ(Joined(first, busy).reasons.front(), "machine_too_busy");
+  SoakResult lost = SampleSoak(2);
+  lost.verdict = SoakVerdict::kNotRun;
+  lost.reasons = {"not all vehicles drove within 60 s"};
+  EXPECT_EQ(Joined(first, lost).verdict, SoakVerdict::kNotRun);
+  EXPECT_EQ(Joined(first, lost).reasons.front(), "not all vehicles drove within 60 s");
+}
+
+// A leg of `ran_s` with so much of it paused, as it is judged by itself.
+SoakResult Leg(double ran_s, double paused_s) {
+  SoakResult leg = SampleSoak(1);
+  leg.planned_s = 1000;
+  leg.ran_s = ran_s;
+  leg.pauses = {.count = 1, .total_s = paused_s, .share = paused_s / ran_s};
+  if (leg.pauses.share > kMostPausedShare) {
+    leg.verdict = SoakVerdict::kNotRun;
+    leg.reasons = {kTooBusy};
+  }
+  return leg;
+}
+
+TEST(SoakResume, TheMachinesPausesAreJudgedOverBothLegs) {
+  EXPECT_EQ(Joined(Leg(500, 30), Leg(500, 0)).verdict, SoakVerdict::kNotRun);
+  EXPECT_EQ(Joined(Leg(500, 30), Leg(500, 0)).reasons.front(), kTooBusy);
+  EXPECT_EQ(Joined(Leg(970, 0), Leg(30, 2)).verdict, SoakVerdict::kPassed);
+  EXPECT_EQ(Joined(Leg(900, 0), Leg(30, 2)).verdict, SoakVerdict::kInterrupted);
+}
+
+TEST(SoakResume, CurvesAreByTheTimeOfTheWhole) {
+  SoakResult rest = Leg(500, 0);
+  rest.slopes.resize(1);
+  rest.slopes[0].curve = {{10, 5}};
+  EXPECT_EQ(Joined(Leg(500, 0), rest).slopes.back().curve[0].time_s, 510);
+}
+
+TEST(SoakResume, AnotherSoakInTheFolderFindsNothingOfTheLastOne) {
+  const TempFolder folder;
+  for (const char* file : {"so_far.json", kCheckpointFile, "report.json", "report.html"}) {
+    std::ofstream(folder.Path() + "/" + file) << "old";
+  }
+  ForgetSoak(folder.Path());
+  EXPECT_TRUE(std::filesystem::is_empty(folder.Path()));
 }
 
 TEST(SoakResume, WhatIsSavedComesBackAndIsForgottenWithTheVerdict) {

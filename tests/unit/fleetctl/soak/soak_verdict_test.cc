@@ -36,7 +36,8 @@ class SoakVerdictTest : public testing::Test {
   }
   SoakResult Judged() const {
     SoakResult result;
-    EvaluateSoak({seen_, schedule_, limits_, [this](SteadyTime, SteadyTime) { return pause_; }},
+    EvaluateSoak({seen_, schedule_, limits_, [this](SteadyTime, SteadyTime) { return pause_; },
+                  true, fleet_},
                  &result);
     return result;
   }
@@ -45,6 +46,7 @@ class SoakVerdictTest : public testing::Test {
   SoakSeen seen_;
   Limits limits_;
   Nanoseconds pause_{0};
+  std::vector<VehicleId> fleet_;
 };
 
 TEST_F(SoakVerdictTest, PassesWhereEveryPromiseWasKept) {
@@ -172,12 +174,53 @@ TEST_F(SoakVerdictTest, TellsOfABrokenInvariantWithTheFaultBehindIt) {
   EXPECT_EQ(result.violations_counted, 3U);
 }
 
-TEST_F(SoakVerdictTest, FailsWhereAProcessEndsAndNoLimitExplainsIt) {
+TEST_F(SoakVerdictTest, FailsWhereAProcessEndedByItself) {
   seen_.ends = {{12, MemberOf(kTwo), "exit code 1", {"why"}}};
+  seen_.restarts = 1;
   EXPECT_EQ(Judged().violations.at(0).invariant, "process_ended");
-  schedule_[0].kind = faults::Kind::kMemoryLimit;
-  schedule_[0].for_s = 5;
-  schedule_[0].target.vehicle = kTwo;
+  EXPECT_EQ(Judged().violations.at(0).vehicle, kTwo);
+  seen_.ends[0].member = {MemberKind::kDiscoveryServer, Number(kTwo)};
+  EXPECT_EQ(Judged().violations.at(0).vehicle, kNoVehicle);
+}
+
+TEST_F(SoakVerdictTest, CountsTheEndsThatAreNotListed) {
+  seen_.restarts = 300;
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kFailed);
+  EXPECT_EQ(Judged().violations_counted, 300U);
+}
+
+TEST_F(SoakVerdictTest, ExpectsNoDetectionWhereEveryPeerWasSilencedItself) {
+  Noticed().reset();
+  fleet_ = {kOne, kTwo};
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kFailed);
+  faults::Fault pause;
+  pause.kind = faults::Kind::kPause;
+  pause.at_s = 9;
+  pause.for_s = 3;
+  pause.target.vehicle = kTwo;
+  schedule_.insert(schedule_.begin(), pause);
+  const FaultCourse paused{.began = seconds(9), .ended = seconds(12), .effect = "it stands"};
+  seen_.courses.insert(seen_.courses.begin(), paused);
+  seen_.courses[0].recovered = seconds(13);
+  seen_.courses[0].noticed = seen_.courses[1].noticed;
+  seen_.courses[0].noticed[static_cast<std::size_t>(Mechanism::kDeadline)] = milliseconds(9150);
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kPassed);
+  EXPECT_FALSE(Judged().faults[1].promised_s);
+  fleet_.push_back(VehicleId{3});
+  EXPECT_EQ(Judged().violations.at(0).invariant, "detection") << "vehicle 3 heard it";
+}
+
+TEST_F(SoakVerdictTest, ExpectsNoDetectionOfAVehicleThatWasCutOffAlready) {
+  Noticed().reset();
+  fleet_ = {kOne, kTwo, VehicleId{3}};
+  faults::Fault cut;
+  cut.kind = faults::Kind::kPartition;
+  cut.at_s = 5;
+  cut.for_s = 10;
+  cut.target.vehicle = kOne;
+  schedule_.insert(schedule_.begin(), cut);
+  seen_.courses.insert(seen_.courses.begin(),
+                       FaultCourse{.began = seconds(5), .ended = seconds(15), .effect = "cut"});
   EXPECT_EQ(Judged().verdict, SoakVerdict::kPassed);
 }
 

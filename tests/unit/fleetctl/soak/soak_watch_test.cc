@@ -101,6 +101,33 @@ TEST_F(SoakWatchTest, AFaultIsOverForItsVictimWhenThatIsWellAgain) {
   EXPECT_EQ(watch_.Courses()[0].recovered, milliseconds(12700));
 }
 
+TEST_F(SoakWatchTest, ACutIsNotSeenByWhatIsLostForOtherCauses) {
+  schedule_[1].kind = faults::Kind::kPartition;
+  VehicleStatus status = Driving(kTwo);
+  Publish(status, seconds(9));
+  watch_.NoteBegin(1, seconds(10));
+  status.impaired.dropped_loss = 40;
+  Publish(status, seconds(11));
+  EXPECT_EQ(watch_.Courses()[1].effect, "");
+  status.impaired.dropped_blackout = 3;
+  Publish(status, seconds(12));
+  EXPECT_EQ(watch_.Courses()[1].effect, "vehicle 2 counted 3 packets");
+}
+
+TEST_F(SoakWatchTest, ALimitMayEndItsOwnProcessAlone) {
+  schedule_[0].kind = faults::Kind::kMemoryLimit;
+  const auto at = [](VehicleId vehicle) {
+    return [vehicle](const faults::Fault& fault) { return fault.target.vehicle == vehicle; };
+  };
+  watch_.NoteBegin(0, seconds(10));
+  watch_.NoteBegin(1, seconds(12));
+  EXPECT_TRUE(watch_.MayEndProcess(at(kOne), seconds(13)));
+  EXPECT_FALSE(watch_.MayEndProcess(at(kTwo), seconds(13))) << "it has another fault";
+  watch_.NoteEnd(0, seconds(15));
+  EXPECT_TRUE(watch_.MayEndProcess(at(kOne), seconds(24)));
+  EXPECT_FALSE(watch_.MayEndProcess(at(kOne), seconds(26)));
+}
+
 TEST_F(SoakWatchTest, AFaultIsOpenUntilNothingMoreCanBeLearntOfIt) {
   watch_.NoteBegin(2, seconds(10));
   watch_.NoteBegin(0, seconds(11));
