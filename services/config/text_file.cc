@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
   throw InputError({{path, line, "", "", std::move(message), std::move(remedy)}});
 }
 
-void RefuseOddFiles(const std::string& path) {
+void RefuseOddFiles(const std::string& path, std::uintmax_t most_bytes) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) {
@@ -39,8 +39,8 @@ void RefuseOddFiles(const std::string& path) {
   const std::uintmax_t bytes = fs::file_size(path, error);
   if (error) Refuse(path, error.message(), "check the path and its permissions");
   if (bytes == 0) Refuse(path, "is empty", "start from a file in config/scenarios");
-  if (bytes > kMaxFileBytes) {
-    Refuse(path, fmt::format("has {} bytes; at most {} are read", bytes, kMaxFileBytes),
+  if (bytes > most_bytes) {
+    Refuse(path, fmt::format("has {} bytes; at most {} are read", bytes, most_bytes),
            "check that this is the file you meant");
   }
 }
@@ -76,15 +76,15 @@ int LineNestedTooDeep(std::string_view text) {
   return 0;
 }
 
-std::string ReadBytes(const std::string& path) {
-  RefuseOddFiles(path);
+std::string ReadBytes(const std::string& path, std::uintmax_t most_bytes) {
+  RefuseOddFiles(path, most_bytes);
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (!stream) Refuse(path, std::strerror(errno), "check its permissions");
   // In parts: a buffer for the largest allowed file would stay allocated with the text.
   std::string text;
   std::array<char, 16384> part;
-  while (text.size() < kMaxFileBytes) {
+  while (text.size() < most_bytes) {
     stream.read(part.data(), part.size());
     if (stream.gcount() == 0) break;
     text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
@@ -93,8 +93,8 @@ std::string ReadBytes(const std::string& path) {
   return text;
 }
 
-std::string ReadTextFile(const std::string& path) {
-  std::string text = ReadBytes(path);
+std::string ReadTextFile(const std::string& path, std::uintmax_t most_bytes) {
+  std::string text = ReadBytes(path, most_bytes);
   if (!IsText(text)) Refuse(path, "is binary, not UTF-8 text", "check that this is the right file");
   if (const int line = LineNestedTooDeep(text); line > 0) {
     Refuse(path, fmt::format("nests deeper than {} brackets", kMaxNesting),

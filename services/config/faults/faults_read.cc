@@ -29,7 +29,7 @@ constexpr int kMaxRandomRules = 1024;
 constexpr Allowed kTime{0, faults::kLongestRun_s, "s"};
 constexpr Allowed kLasting{0.001, faults::kLongestRun_s, "s"};
 constexpr Allowed kMeanBetween{faults::kLeastMean_s, faults::kLongestRun_s, "s"};
-constexpr int kMaxAtRules = 100000;
+constexpr int kMaxAtRules = static_cast<int>(faults::kMostFaults);
 constexpr Allowed kTimes{1, static_cast<double>(faults::kMostFaults)};
 constexpr std::size_t kLongestName = 64;
 

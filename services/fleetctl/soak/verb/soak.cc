@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <initializer_list>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <thread>
@@ -57,6 +58,7 @@ constexpr unsigned kWriting_s = 60;
 struct Prepared {
   std::string scenario_file;
   std::string faults_file;  // the concrete list
+  std::string worlds_file;  // of it, what the world carries out
   std::string logs_folder;
   std::string qos_file;
   Scenario scenario;
@@ -134,6 +136,19 @@ Scenario LoadAndCheck(const SoakOptions& options) {
   return scenario;
 }
 
+// `ending`: of the file names. A world reads its list at every start: not what others carry out.
+void WriteLists(const fs::path& folder, const std::string& ending, Prepared* prepared) {
+  prepared->faults_file = (folder / ("faults" + ending + ".textproto")).string();
+  WriteFile(prepared->faults_file, faults::AsTextproto(prepared->schedule));
+  faults::Schedule worlds;
+  std::ranges::copy_if(prepared->schedule, std::back_inserter(worlds),
+                       [](const faults::Fault& fault) {
+                         return faults::ActorOf(fault.kind) == faults::Actor::kWorld;
+                       });
+  prepared->worlds_file = (folder / ("faults_of_world" + ending + ".textproto")).string();
+  WriteFile(prepared->worlds_file, faults::AsTextproto(worlds));
+}
+
 Prepared Prepare(const SoakOptions& options) {
   Prepared prepared;
   const Scenario as_shipped = LoadAndCheck(options);
@@ -165,8 +180,7 @@ Prepared Prepare(const SoakOptions& options) {
   if (!as_shipped.spawns.empty()) edit.start_with = static_cast<std::uint32_t>(vehicles);
   prepared.scenario_file = (folder / "scenario.textproto").string();
   WriteFile(prepared.scenario_file, EditScenario(options.scenario, edit));
-  prepared.faults_file = (folder / "faults.textproto").string();
-  WriteFile(prepared.faults_file, faults::AsTextproto(prepared.schedule));
+  WriteLists(folder, "", &prepared);
   prepared.scenario =
       LoadScenario(prepared.scenario_file, {options.seed, std::nullopt, std::nullopt});
   return prepared;
@@ -193,7 +207,7 @@ FleetSpec SpecOf(const SoakOptions& options, const Prepared& prepared, const Dom
   if (Records(options)) spec.options.record_folder = (folder / "recordings").string();
   if (options.ring_s > 0) spec.options.record_ring = std::to_string(options.ring_s);
   spec.extra_words[kTheWorld] = {"--checkpoint", (folder / kCheckpointFile).string(), "--faults",
-                                 prepared.faults_file};
+                                 prepared.worlds_file};
   for (const VehicleId vehicle : prepared.fleet) {
     spec.extra_words[MemberOf(vehicle)] = {"--stay", "--hang-on-signal", "--no-watchdog",
                                            "--log-format", "json"};
@@ -421,8 +435,7 @@ int Resume(const SoakOptions& asked) {
   const std::string rest = fmt::format("rest-{}", so_far.resumed_at_s.size() + 1);
   prepared.logs_folder = (folder / "logs" / rest).string();  // those of the fleet before stay
   CheckFolder(prepared.logs_folder);
-  prepared.faults_file = (folder / ("faults." + rest + ".textproto")).string();
-  WriteFile(prepared.faults_file, faults::AsTextproto(prepared.schedule));
+  WriteLists(folder, "." + rest, &prepared);
   // A new fleet: the old world's times and places are no longer valid.
   fs::remove(folder / kCheckpointFile);
   std::fprintf(stderr, "resuming at %.0f of %.0f s\n", so_far.ran_s, so_far.planned_s);
