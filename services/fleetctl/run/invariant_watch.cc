@@ -60,7 +60,7 @@ bool InvariantWatch::IsOfAPastWorld(WorldEpoch epoch) const {
   return std::ranges::find(past_epochs_, epoch) != past_epochs_.end();
 }
 
-// Which vehicles live is known from before: the world goes on with those.
+// Which vehicles live is known from before: the world resumes with those.
 void InvariantWatch::Follow(const Truth& first) {
   if (epoch_ != kNoEpoch) {
     EvaluateUntil(newest_);
