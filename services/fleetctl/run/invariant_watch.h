@@ -4,7 +4,7 @@
 // A tick is judged kLagTicks later, when all its samples have arrived. A tick with missing samples
 // is left out and counted, because a check must report what it did not see.
 //
-// A world that was restarted goes on under another epoch, from ticks it had already passed: what
+// A world that was restarted resumes under another epoch, from ticks it had already passed: what
 // was seen of its ticks before is judged and let go, and the new ones are judged from its first
 // step on.
 //
