@@ -12,9 +12,27 @@ constexpr std::array<std::uint8_t, 4> kListener = {0x00, 0x01, 0x00, 0xc7};
 
 constexpr std::uint16_t kLeaseDuration = 0x0002;  // ids of parameters
 constexpr std::uint16_t kParticipantGuid = 0x0050;
+constexpr std::size_t kLeaseBytes = 8;
+constexpr std::size_t kGuidBytes = 16;
 constexpr std::uint8_t kKeyHash = 0x70;
 constexpr std::uint8_t kStatusInfo = 0x71;
 constexpr std::uint8_t kDisposedAndUnregistered = 3;
+
+// In a list that was found sound: nowhere, or once and of that length.
+bool StandsOnceAtMost(const Submessage& list, std::uint16_t id, std::size_t bytes) {
+  const Bytes first = FindParameter(list, 0, id);
+  if (first.data() == nullptr) return true;
+  if (first.size() != bytes) return false;
+  const auto behind = static_cast<std::size_t>(first.data() - list.body.data()) + Padded(bytes);
+  return FindParameter(list, behind, id).data() == nullptr;
+}
+
+bool NamesNoOtherEntity(const Submessage& list) {
+  const Bytes guid = FindParameter(list, 0, kParticipantGuid);
+  return guid.empty() || std::equal(kParticipantEntity.begin(), kParticipantEntity.end(),
+                                    guid.begin() + std::tuple_size_v<PrefixBytes>);
+}
+
 // From there on; returns where it ends.
 template <std::size_t size>
 std::size_t Put(const std::array<std::uint8_t, size>& bytes, std::size_t at, Farewell* to) {
@@ -36,6 +54,15 @@ std::array<std::uint8_t, 8> BigEndian(std::int64_t number) {
 bool IsAnnouncement(const Submessage& submessage) {
   return submessage.kind == SubmessageKind::kData &&
          std::equal(kAnnouncer.begin(), kAnnouncer.end(), submessage.body.begin() + kWriterInData);
+}
+
+bool IsUnambiguous(const Submessage& announcement) {
+  const std::optional<Submessage> list = ParametersOf(announcement);
+  if (!list) return true;
+  const bool no_hash = FindParameter(*list, 0, kKeyHash).data() == nullptr;
+  return StandsOnceAtMost(*list, kParticipantGuid, kGuidBytes) && NamesNoOtherEntity(*list) &&
+         StandsOnceAtMost(*list, kLeaseDuration, kLeaseBytes) &&
+         (no_hash || !announcement.Has(kWithData));  // with a key it is a farewell
 }
 
 std::optional<PrefixBytes> AnnouncedParticipant(const Submessage& announcement) {

@@ -19,6 +19,11 @@ inline constexpr std::array<std::uint8_t, 4> kParticipantEntity = {0x00, 0x00, 0
 // Whether a sound submessage is one of a participant's announcer.
 bool IsAnnouncement(const Submessage& submessage);
 
+// Whether its name and its lease are what Fast DDS reads too. Of a parameter that stands twice the
+// library takes the last, and the hash of a key it takes for the name; it knows participants by
+// their whole GUID.
+bool IsUnambiguous(const Submessage& announcement);
+
 // The participant that it names; empty in a farewell, or where there is none.
 std::optional<PrefixBytes> AnnouncedParticipant(const Submessage& announcement);
 // How long it may be silent; empty in a farewell, or where there is none.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "services/link/packet_filter/announcement.h"
 #include "services/link/packet_filter/submessage_check.h"
 
 namespace giveway::link {
@@ -153,7 +154,10 @@ PacketDrop CheckDiscovery(const Submessage& of_discovery, bool secured) {
   // Only whole can it be judged, and each of Fast DDS fits into a datagram.
   if (of_discovery.kind == SubmessageKind::kDataFrag) return PacketDrop::kFragmentedAnnouncement;
   const std::optional<Submessage> list = ParametersOf(of_discovery);
-  return list ? CheckList(*list, secured) : PacketDrop::kNone;
+  const PacketDrop drop = list ? CheckList(*list, secured) : PacketDrop::kNone;
+  const bool ambiguous =
+      drop == PacketDrop::kNone && IsAnnouncement(of_discovery) && !IsUnambiguous(of_discovery);
+  return ambiguous ? PacketDrop::kMalformed : drop;
 }
 
 void HideTypes(std::span<std::uint8_t> packet) {

@@ -3,9 +3,10 @@
 // lengths that parameters state fit into them: Fast DDS takes memory for what is stated before it
 // looks whether it is there. Formats: OMG RTPS 2.3, 9.6.2.2; DDS-Security 1.1, 7.2.
 //
-// What a list says is not judged here, and neither what DDS-Security encrypts. Descriptions of
-// types the library decodes without checking the lengths in them (CVE-2026-49863), and in a fleet
-// types go by their names: they are hidden from it.
+// What a list says is not judged here (but a participant's name and lease must be read alike by
+// this filter and by Fast DDS), and neither what DDS-Security encrypts. Descriptions of types the
+// library decodes without checking the lengths in them (CVE-2026-49863), and in a fleet types go by
+// their names: they are hidden from it.
 #pragma once
 
 #include <cstdint>

@@ -14,6 +14,7 @@ constexpr std::uint16_t kFilterInfo = 0x0055;  // which readers' filters a sampl
 constexpr std::size_t kToQosAt =
     2;  // of DATA and DATA_FRAG: octets from behind it to the inline QoS
 constexpr std::size_t kBehindToQos = 4;
+constexpr std::uint16_t kMostToQos = 0x7fff;  // the library reads a signed number
 constexpr std::size_t kLocatorBytes = 24;
 constexpr std::uint32_t kMostBits = 256;  // of a set of numbers
 // Beyond it nothing can be added to a sequence number without care.
@@ -36,8 +37,9 @@ std::optional<std::size_t> EndOfParameters(const Submessage& of, std::size_t at)
 
 // Where the payload of a DATA or DATA_FRAG starts, whose fields take `fields` octets.
 std::optional<std::size_t> EndOfInlineQos(const Submessage& data, std::size_t fields) {
-  const std::size_t qos = kBehindToQos + data.U16(kToQosAt);
-  if (qos < fields || qos > data.body.size()) return std::nullopt;
+  const std::uint16_t to_qos = data.U16(kToQosAt);
+  const std::size_t qos = kBehindToQos + to_qos;
+  if (to_qos > kMostToQos || qos < fields || qos > data.body.size()) return std::nullopt;
   return data.Has(kInlineQos) ? EndOfParameters(data, qos) : qos;
 }
 

@@ -218,6 +218,52 @@ TEST(DiscoveryList, HoldsPartitionsWithTheirEnds) {
   EXPECT_EQ(DropOf(kPartitions, List().U32(1).Text(3)), kTooLong) << "no NUL";
 }
 
+PacketBytes GuidOf(const test::PrefixBytes& prefix, std::uint8_t last_of_entity = 0xc1) {
+  PacketBytes guid(prefix.begin(), prefix.end());
+  guid.insert(guid.end(), {0, 0, 1, last_of_entity});
+  return guid;
+}
+
+// An announcement of kAnnounced with more parameters at its end.
+PacketDrop DropWithMore(const List& more) {
+  const PacketBytes parameters = more;
+  return Judged(RtpsPacket(kAnnounced).Announcement(kAnnounced, 1, 20, parameters));
+}
+
+// A stranger that adds its name behind that of a known participant was let in without being
+// counted: the library takes the last.
+TEST(DiscoveryList, NamesAParticipantOnce) {
+  constexpr test::PrefixBytes kStranger = {9, 9, 9};
+  EXPECT_EQ(DropWithMore(List().Parameter(0x50, GuidOf(kStranger))), PacketDrop::kMalformed);
+  EXPECT_EQ(DropWithMore(List().Parameter(0x70, GuidOf(kStranger))), PacketDrop::kMalformed)
+      << "of the hash of a key the library makes the name";
+  EXPECT_EQ(DropWithMore(List().Parameter(0x02, PacketBytes(8))), PacketDrop::kMalformed)
+      << "a second lease";
+  EXPECT_EQ(DropWithMore(List().Parameter(0x8050, GuidOf(kStranger))), kSound);
+}
+
+TEST(DiscoveryList, NamesAParticipantByAWholeGuid) {
+  const auto drop_of = [](std::uint16_t id, const PacketBytes& value) {
+    return DropOfList(List().Parameter(id, value).End(), true, false, test::kAnnouncer);
+  };
+  PacketBytes guid = GuidOf(kAnnounced);
+  EXPECT_EQ(drop_of(0x50, guid), kSound);
+  EXPECT_EQ(drop_of(0x50, GuidOf(kAnnounced, 0xc2)), PacketDrop::kMalformed)
+      << "the library knows them by their entity ids too";
+  EXPECT_EQ(drop_of(0x50, {}), PacketDrop::kMalformed);
+  guid.resize(12);
+  EXPECT_EQ(drop_of(0x50, guid), PacketDrop::kMalformed);
+  guid.resize(20);
+  EXPECT_EQ(drop_of(0x50, guid), PacketDrop::kMalformed);
+  EXPECT_EQ(drop_of(0x02, PacketBytes(4)), PacketDrop::kMalformed) << "a lease";
+}
+
+TEST(DiscoveryList, NamesEndpointsByTheHashOfTheirKeyToo) {
+  const PacketBytes list =
+      List().Parameter(0x70, GuidOf(kAnnounced)).Parameter(0x5a, GuidOf(kAnnounced)).End();
+  EXPECT_EQ(DropOfList(list), kSound);
+}
+
 TEST(DiscoveryList, ComesInOnePiece) {
   for (const std::uint32_t writer : kDiscoveryWriters) {
     EXPECT_EQ(Judged(RtpsPacket(kAnnounced).DataFrag(writer, 1, 1, 1, 1000, 2000, 1000)),

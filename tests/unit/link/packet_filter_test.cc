@@ -131,6 +131,17 @@ TEST(PacketFilter, DropsSubmessagesThatContradictThemselves) {
   EXPECT_EQ(Alone(FromPeer().Add(0x09, 0, PacketBytes(4))), PacketDrop::kMalformed);
 }
 
+// Fast DDS reads a signed number: beyond 2^15 it looks for the payload in front of the packet.
+TEST(PacketFilter, DropsDataWhosePayloadTheLibraryWouldLookForElsewhere) {
+  const auto drop_of = [](std::uint8_t high_of_octets_to_qos) {
+    PacketBytes packet = FromPeer().Data(test::kUserWriter, 1, PacketBytes(50'000)).Bytes();
+    packet[27] = high_of_octets_to_qos;
+    return Alone(packet);
+  };
+  EXPECT_EQ(drop_of(0x7f), PacketDrop::kNone);
+  EXPECT_EQ(drop_of(0x80), PacketDrop::kListTooLong);
+}
+
 // CVE-2025-62799: the library's index of fragments overwrote itself, or what lies behind the
 // sample.
 TEST(PacketFilter, DropsFragmentsTooShortForTheLibrarysIndex) {
