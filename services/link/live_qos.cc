@@ -1,14 +1,35 @@
 // What a participant's endpoints run with, read and changed while they run.
+#include <algorithm>
+#include <utility>
+
+#include "services/link/admin_link.h"
+#include "services/link/convert/convert.h"
 #include "services/link/participant.h"
 #include "services/link/resolved_values.h"
+#include "services/types/check.h"
 
 namespace giveway::link {
 namespace {
 
-void Append(const std::string& profile, const std::vector<ResolvedValue>& values,
-            std::vector<LiveValue>& live) {
-  for (const ResolvedValue& value : values) live.push_back({profile, value.policy, value.number});
-}
+// Of endpoints that are alike the first only: a world has a writer of the same profile for each
+// vehicle, and an answer carries 60 000 bytes.
+class LiveList {
+ public:
+  void Add(const std::string& profile, std::vector<ResolvedValue> values) {
+    const auto like_it = std::pair(profile, std::move(values));
+    if (std::ranges::find(listed_, like_it) == listed_.end()) listed_.push_back(like_it);
+  }
+  std::vector<LiveValue> Values() const {
+    std::vector<LiveValue> live;
+    for (const auto& [profile, values] : listed_) {
+      for (const auto& value : values) live.push_back({profile, value.policy, value.number});
+    }
+    return live;
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::vector<ResolvedValue>>> listed_;
+};
 
 // Deadlines may change while an endpoint runs; discovery announces the change to its peers.
 template <typename Entity, typename Qos>
@@ -20,15 +41,15 @@ bool Set(Entity& entity, Qos qos, const Duration& deadline) {
 }  // namespace
 
 std::vector<LiveValue> Participant::LiveQos() const {
-  std::vector<LiveValue> live;
-  Append("giveway_participant", ValuesOf(participant_->get_qos()), live);
+  LiveList live;
+  live.Add("giveway_participant", ValuesOf(participant_->get_qos()));
   for (const auto& [profile, writer] : writers_) {
-    Append(profile, ValuesOf(writer->get_qos(), writer->get_publisher()->get_qos()), live);
+    live.Add(profile, ValuesOf(writer->get_qos(), writer->get_publisher()->get_qos()));
   }
   for (const auto& [profile, reader] : readers_) {
-    Append(profile, ValuesOf(reader->get_qos(), reader->get_subscriber()->get_qos()), live);
+    live.Add(profile, ValuesOf(reader->get_qos(), reader->get_subscriber()->get_qos()));
   }
-  return live;
+  return live.Values();
 }
 
 bool Participant::SetDeadline(const std::string& profile, const Duration& deadline) {
@@ -40,6 +61,12 @@ bool Participant::SetDeadline(const std::string& profile, const Duration& deadli
     if (made_by == profile) all = Set(*reader, reader->get_qos(), deadline) && all;
   }
   return all;
+}
+
+AdminAnswer AsReceived(const AdminAnswer& answer) {
+  AdminAnswer received;
+  GIVEWAY_CHECK(FromWire(ToWire(answer), received), "an answer's live values are not its own");
+  return received;
 }
 
 }  // namespace giveway::link

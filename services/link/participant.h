@@ -61,7 +61,8 @@ class Participant {
   // Deletes a writer made here, and its publisher. What is left goes with the participant.
   void Delete(dds::DataWriter& writer);
 
-  // Every value of every endpoint there is now, as the library has it.
+  // Every value of the endpoints there are now, as the library has it; of those of one profile and
+  // the same values the first only.
   std::vector<LiveValue> LiveQos() const;
   // Gives the endpoints of a profile another deadline while they run. False if the library refused
   // it for one of them.

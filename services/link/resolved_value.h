@@ -13,6 +13,8 @@ inline constexpr std::int64_t kInfiniteDuration = std::numeric_limits<std::int64
 struct ResolvedValue {
   std::string policy;  // "deadline", "max_instances"
   std::int64_t number = 0;
+
+  friend bool operator==(const ResolvedValue&, const ResolvedValue&) = default;
 };
 
 }  // namespace giveway::link

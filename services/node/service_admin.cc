@@ -15,7 +15,6 @@ namespace giveway {
 namespace {
 
 // A participant takes a tenth of a second; a busy machine more.
-constexpr std::size_t kMostReason = 250;  // the wire has 255, and the seal is of what it carries
 constexpr Nanoseconds kTrialPatience = std::chrono::seconds(8);
 
 // Why these profiles would not do; empty if they would. An operator has looked already: this is for
@@ -169,12 +168,13 @@ void ServiceAdmin::Answer(std::uint64_t order, AnswerState state, const std::str
   AdminAnswer answer{.vehicle = vehicle_,
                      .order = order,
                      .state = state,
-                     .reason = reason.substr(0, kMostReason),
+                     .reason = reason,
                      .fleet_size = options_.fleet_size,
                      .interface = options_.interface,
                      .profiles = in_use_,
                      .live = {}};
   if (state == AnswerState::kInEffect) answer.live = link_.LiveQos();
+  answer = link::AsReceived(answer);
   gate_.Seal(&answer);
   link_.SendAnswer(answer);
 }

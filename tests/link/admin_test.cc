@@ -162,5 +162,19 @@ TEST(Admin, ADeadlineThatWasChangedIsTheOneThatHolds) {
   EXPECT_GE(std::chrono::steady_clock::now() - silent_since, kLonger - milliseconds(100));
 }
 
+// One profile with the same values a hundred times: the answer would not fit on the wire.
+TEST(Admin, AWorldListsTheWritersOfItsVehiclesOnce) {
+  const DomainLock domain;
+  link::WorldLink world(OptionsIn(domain));
+  world.OpenRanges(VehicleId{1});
+  const std::vector<LiveValue> of_one = world.LiveQos();
+  for (std::uint32_t id = 2; id <= 100; ++id) world.OpenRanges(VehicleId{id});
+  EXPECT_EQ(world.LiveQos(), of_one);
+  constexpr std::int64_t kOther = 77'000'000;
+  ASSERT_TRUE(world.SetDeadline("world_ranges_writer", kOther));
+  EXPECT_THAT(world.LiveQos(),
+              ::testing::Contains(LiveValue{"world_ranges_writer", "deadline", kOther}));
+}
+
 }  // namespace
 }  // namespace giveway::test
