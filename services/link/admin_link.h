@@ -20,8 +20,9 @@ class AdminLink {
   virtual void SendAnswer(const AdminAnswer& answer) = 0;
   // What the endpoints there are now run with; of those that are alike the first only.
   virtual std::vector<LiveValue> LiveQos() const = 0;
-  // Gives the endpoints of a profile another deadline while they run; one without endpoints here is
-  // passed over. `deadline` in nanoseconds, or kInfiniteDuration. False if the library refused.
+  // Gives the endpoints of a profile another deadline while they run, and those to come; one
+  // without endpoints here is no fault. `deadline` in nanoseconds, or kInfiniteDuration. False if
+  // the library refused.
   virtual bool SetDeadline(const std::string& profile, std::int64_t deadline) = 0;
 
  protected:

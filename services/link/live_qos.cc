@@ -60,7 +60,13 @@ bool Participant::SetDeadline(const std::string& profile, const Duration& deadli
   for (const auto& [made_by, reader] : readers_) {
     if (made_by == profile) all = Set(*reader, reader->get_qos(), deadline) && all;
   }
+  if (all) deadlines_[profile] = deadline;
   return all;
+}
+
+Duration Participant::DeadlineOf(const std::string& profile, const Duration& loaded) const {
+  const auto changed = deadlines_.find(profile);
+  return changed == deadlines_.end() ? loaded : changed->second;
 }
 
 AdminAnswer AsReceived(const AdminAnswer& answer) {

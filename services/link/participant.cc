@@ -304,8 +304,9 @@ dds::Publisher& Participant::MakePublisher(const std::string& partition) {
 dds::DataWriter& Participant::MakeWriter(dds::Topic& topic, const std::string& profile,
                                          const std::string& partition, std::int32_t depth) {
   dds::Publisher& publisher = MakePublisher(partition);
-  auto* writer = publisher.create_datawriter(&topic, WriterQos(publisher, profile, depth), nullptr,
-                                             dds::StatusMask::none());
+  dds::DataWriterQos qos = WriterQos(publisher, profile, depth);
+  qos.deadline().period = DeadlineOf(profile, qos.deadline().period);
+  auto* writer = publisher.create_datawriter(&topic, qos, nullptr, dds::StatusMask::none());
   if (writer == nullptr) ThrowNotMade("writer of profile \"" + profile + "\"");
   writers_.emplace_back(profile, writer);
   return *writer;
@@ -353,8 +354,9 @@ dds::DataReader& Participant::MakeReader(dds::Topic& topic, const std::string& p
       participant_->create_subscriber(subscriber_qos, nullptr, dds::StatusMask::none());
   if (subscriber == nullptr) ThrowNotMade("subscriber for partition " + partition);
   dds::TopicDescription& read = filter.filter == nullptr ? topic : Filtered(topic, filter);
-  auto* reader =
-      subscriber->create_datareader(&read, ReaderQos(*subscriber, profile, depth), listener, mask);
+  dds::DataReaderQos qos = ReaderQos(*subscriber, profile, depth);
+  qos.deadline().period = DeadlineOf(profile, qos.deadline().period);
+  auto* reader = subscriber->create_datareader(&read, qos, listener, mask);
   if (reader == nullptr) ThrowNotMade("reader of profile \"" + profile + "\"");
   readers_.emplace_back(profile, reader);
   if (filter.filter != nullptr) read_topics_.emplace(reader, topic.get_name());

@@ -64,8 +64,8 @@ class Participant {
   // Every value of the endpoints there are now, as the library has it; of those of one profile and
   // the same values the first only.
   std::vector<LiveValue> LiveQos() const;
-  // Gives the endpoints of a profile another deadline while they run. False if the library refused
-  // it for one of them.
+  // Gives the endpoints of a profile another deadline while they run, and those that are made of it
+  // later. False if the library refused it for one of them: then later ones have the profile's.
   bool SetDeadline(const std::string& profile, const Duration& deadline);
 
   const rtps::GuidPrefix_t& Prefix() const { return participant_->guid().guidPrefix; }
@@ -101,6 +101,8 @@ class Participant {
                               dds::DataReaderListener* listener, const dds::StatusMask& mask,
                               const FilterOfTopic& filter);
   dds::TopicDescription& Filtered(dds::Topic& topic, FilterOfTopic filter);
+  // That of SetDeadline, if it was called for the profile.
+  Duration DeadlineOf(const std::string& profile, const Duration& loaded) const;
 
   FilterFactory filters_;  // the library asks it until the participant is gone
   std::shared_ptr<Impairer> impairer_;
@@ -113,6 +115,7 @@ class Participant {
   std::unique_ptr<dds::DomainParticipant, DeleteAll> participant_;
   std::vector<std::pair<std::string, dds::DataWriter*>> writers_;  // by profile, as they were made
   std::vector<std::pair<std::string, dds::DataReader*>> readers_;
+  std::map<std::string, Duration> deadlines_;  // by profile, of those that were changed
   std::map<const dds::DataReader*, std::string> read_topics_;  // of those with a filter
   std::vector<FoundEndpoint> found_;                           // taken, and to be judged
   UnfitEndpoints unfit_;

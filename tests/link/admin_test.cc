@@ -176,5 +176,22 @@ TEST(Admin, AWorldListsTheWritersOfItsVehiclesOnce) {
               ::testing::Contains(LiveValue{"world_ranges_writer", "deadline", kOther}));
 }
 
+// A vehicle that joined after an order had changed the deadlines of its ranges never matched.
+TEST(Admin, ADeadlineThatWasChangedIsThatOfEndpointsMadeLaterToo) {
+  const DomainLock domain;
+  constexpr std::int64_t kShorter = Nanoseconds(milliseconds(40)).count();
+  link::WorldLink world(OptionsIn(domain));
+  ASSERT_TRUE(world.SetDeadline("world_ranges_writer", kShorter));
+  link::VehicleLink vehicle(OptionsIn(domain));
+  ASSERT_TRUE(vehicle.SetDeadline("world_ranges_reader", kShorter));
+  world.OpenRanges(VehicleId{1});
+  vehicle.Open(VehicleId{1});
+  EXPECT_THAT(world.LiveQos(),
+              ::testing::Contains(LiveValue{"world_ranges_writer", "deadline", kShorter}));
+  EXPECT_THAT(vehicle.LiveQos(),
+              ::testing::Contains(LiveValue{"world_ranges_reader", "deadline", kShorter}));
+  EXPECT_TRUE(Eventually([&] { return world.IsMatched(VehicleId{1}); }));
+}
+
 }  // namespace
 }  // namespace giveway::test
