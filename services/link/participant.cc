@@ -125,11 +125,12 @@ rtps::GuidPrefix_t ServerPrefix(std::size_t id) {
 }
 
 // Replaces the profile's discovery: all participants are found through these servers.
-void SetDiscoveryServers(rtps::DiscoverySettings& discovery,
-                         const std::vector<DiscoveryServer>& servers) {
+void SetDiscoveryServers(rtps::DiscoverySettings& discovery, const LinkOptions& options) {
   discovery.discoveryProtocol = Discovery::CLIENT;
   discovery.m_DiscoveryServers.clear();
-  const FoundServers found = FindServers(servers);
+  const FoundServers found = options.server_addresses.empty()
+                                 ? FindServers(options.discovery_servers)
+                                 : FoundServers{options.server_addresses, ""};
   if (!found.fault.empty()) throw LinkError(found.fault);
   for (const auto& [ipv4, port] : found.addresses) {
     rtps::Locator_t address;
@@ -150,7 +151,7 @@ dds::DomainParticipantQos MakeQos(const LinkOptions& options, const std::string&
   SetTransport(qos, options, filtered, impairer);
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
   if (!options.discovery_servers.empty()) {
-    SetDiscoveryServers(discovery, options.discovery_servers);
+    SetDiscoveryServers(discovery, options);
   }
   if (options.fleet_size > kLargeFleet) {
     discovery.leaseDuration = kLargeFleetLease;

@@ -16,8 +16,8 @@ constexpr Nanoseconds kReminder = std::chrono::seconds(30);
 
 // On a thread that is not joined: a lookup without a name server takes seconds, and a stop takes
 // one at most.
-std::future<std::string> Ask(const std::vector<DiscoveryServer>& servers) {
-  std::packaged_task<std::string()> task([servers] { return link::FindServers(servers).fault; });
+std::future<link::FoundServers> Ask(const std::vector<DiscoveryServer>& servers) {
+  std::packaged_task<link::FoundServers()> task([servers] { return link::FindServers(servers); });
   auto answer = task.get_future();
   std::thread(std::move(task)).detach();
   return answer;
@@ -25,13 +25,14 @@ std::future<std::string> Ask(const std::vector<DiscoveryServer>& servers) {
 
 }  // namespace
 
-bool AwaitServers(const link::LinkOptions& options, const StopSignal& stop,
-                  const std::function<void(const std::string& why)>& tell) {
-  if (options.discovery_servers.empty()) return true;
+std::optional<std::vector<link::ServerAddress>> AwaitServers(
+    const link::LinkOptions& options, const StopSignal& stop,
+    const std::function<void(const std::string& why)>& tell) {
+  if (options.discovery_servers.empty()) return std::vector<link::ServerAddress>{};
   std::string why = "looks up its discovery servers: " + ToText(options.discovery_servers);
   SteadyTime remind{0};
   SteadyTime again{0};
-  std::future<std::string> answer;
+  std::future<link::FoundServers> answer;
   while (!stop.IsSet()) {
     tell(why);
     if (!answer.valid() && SteadyNow() >= again) answer = Ask(options.discovery_servers);
@@ -39,14 +40,15 @@ bool AwaitServers(const link::LinkOptions& options, const StopSignal& stop,
       SleepUntil(SteadyNow() + kPoll);
       continue;
     }
-    why = answer.get();
-    if (why.empty()) return true;
+    const link::FoundServers found = answer.get();
+    if (found.fault.empty()) return found.addresses;
+    why = found.fault;
     again = SteadyNow() + kAskAgain;
     if (SteadyNow() < remind) continue;
     LogWarning(why);
     remind = SteadyNow() + kReminder;
   }
-  return false;
+  return std::nullopt;
 }
 
 }  // namespace giveway

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "services/link/fastdds/link_options.h"
 #include "services/runtime/process.h"
@@ -11,8 +13,10 @@
 namespace giveway {
 
 // Waits until every discovery server has an address, and passes the reason to `tell` repeatedly
-// meanwhile. False if asked to stop.
-bool AwaitServers(const link::LinkOptions& options, const StopSignal& stop,
-                  const std::function<void(const std::string& why)>& tell);
+// meanwhile. The addresses, for the link: looked up once more, slowly, the watchdog would end the
+// process. Nothing if asked to stop.
+std::optional<std::vector<link::ServerAddress>> AwaitServers(
+    const link::LinkOptions& options, const StopSignal& stop,
+    const std::function<void(const std::string& why)>& tell);
 
 }  // namespace giveway

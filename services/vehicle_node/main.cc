@@ -27,8 +27,10 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario, link::LinkOpti
     recorder.emplace(flags.record, RecorderOptions{flags.record_split, flags.record_ring});
   }
   options.impairment = ImpairmentOf(flags, scenario);
-  if (!AwaitServers(options, stop, [&](const std::string& why) { health.OnJoining(why); }))
-    return {};
+  const auto servers =
+      AwaitServers(options, stop, [&](const std::string& why) { health.OnJoining(why); });
+  if (!servers) return {};
+  options.server_addresses = *servers;
   auth::AdminGate gate = AdminGateOf(flags);
   link::VehicleLink link(options, ServiceOptionsOf(gate, scenario));
   PublishIdentity({kNoVehicle, link.ParticipantText()});

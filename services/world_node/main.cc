@@ -23,7 +23,7 @@ namespace {
 
 // From the link's first moment to its last.
 LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario,
-             const sim::FaultSchedule& schedule, const link::LinkOptions& link_options,
+             const sim::FaultSchedule& schedule, link::LinkOptions link_options,
              const StopSignal& stop, const std::function<void()>& settled) {
   HealthService<WorldHealth> health(flags);
   ParallelPool pool(flags.threads);
@@ -34,7 +34,9 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario,
     health.Now().waits_for = ShortText(why);
     health.Publish();
   };
-  if (!AwaitServers(link_options, stop, tell)) return {};
+  const auto servers = AwaitServers(link_options, stop, tell);
+  if (!servers) return {};
+  link_options.server_addresses = *servers;
   auth::AdminGate gate = AdminGateOf(flags);
   link::WorldLink link(link_options, ServiceOptionsOf(gate, scenario));
   PublishIdentity({kNoVehicle, link.ParticipantText()});

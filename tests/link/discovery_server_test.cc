@@ -10,6 +10,7 @@
 
 #include "services/link/fastdds/fastdds_version.h"
 #include "services/link/fastdds/server_addresses.h"
+#include "services/node/server_wait.h"
 #include "tests/link/fleet.h"
 
 namespace giveway::test {
@@ -86,6 +87,25 @@ TEST_F(DiscoveryServerTest, ThatDoesNotAnswerIsNamedUntilItDoes) {
               AllOf(HasSubstr("no discovery server answers"), HasSubstr("localhost:" + port)));
   const Server server = MakeServer(domain_.Domain(), port_);
   EXPECT_TRUE(Eventually([&] { return one.Link().WhyNoPeerIsFound().empty(); }));
+}
+
+// Of a slow name server the second answer took so long that the watchdog ended the vehicle.
+TEST_F(DiscoveryServerTest, IsNotLookedUpOnceMoreByTheLink) {
+  const std::string nobody(64, 'n');  // no name at all: looked up, it has no address
+  const Server server = MakeServer(domain_.Domain(), port_);
+  options_.discovery_servers = {{nobody, port_}};
+  options_.server_addresses = {{"127.0.0.1", port_}};
+  Beaconing one(options_, VehicleId{1});
+  EXPECT_TRUE(Eventually([&] { return one.Link().WhyNoPeerIsFound().empty(); }));
+}
+
+TEST_F(DiscoveryServerTest, HasItsAddressFromTheWaitForIt) {
+  const StopSignal stop;
+  const auto found = AwaitServers(options_, stop, [](const std::string&) {});
+  ASSERT_TRUE(found.has_value());
+  ASSERT_EQ(found->size(), 1U);
+  EXPECT_EQ(found->front().ipv4, "127.0.0.1");
+  EXPECT_EQ(found->front().port, port_);
 }
 
 TEST_F(DiscoveryServerTest, IsNotMissedWhereMulticastFindsEverybody) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "services/link/fastdds/server_addresses.h"
 #include "services/types/admin.h"
 #include "services/types/discovery_server.h"
 #include "services/types/impairment.h"
@@ -22,6 +23,9 @@ struct LinkOptions {
   Impairment impairment = {};           // of what this process hears; its seed is set
   // Overrides the profile set's discovery; none: as the set says.
   std::vector<DiscoveryServer> discovery_servers = {};
+  // Theirs, in the same order, where they are known. None: the link looks them up, and meanwhile
+  // this process does nothing else.
+  std::vector<ServerAddress> server_addresses = {};
   bool hears_all_bodies = false;  // observers: truth of the whole fleet
   // Only the profile set's UDP is left. Set once the files of shared memory were deleted: the
   // library removes files by name as participants end, and would remove new files of the same name.
