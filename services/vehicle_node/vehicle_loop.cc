@@ -92,17 +92,18 @@ void VehicleLoop::AskForTime() {
   link_.FlushAnswer(kFlushTimeout);  // an operator must know that the silence is meant
 }
 
-// A scan is awaited half a period longer than it should take; blind, beacons keep their rate.
+// A scan is awaited half a period longer than it should take; blind, beacons keep their rate. In
+// lockstep a turn without a scan sends none, and the next waits as long all the same.
 Nanoseconds VehicleLoop::Patience() const {
   const bool blind = clock_.Now() - last_scan_ > options_.ranges_age_limit;
-  const Nanoseconds due = last_beacon_ + options_.tick_period * (blind ? 2 : 3) / 2;
+  const Nanoseconds due = last_turn_ + options_.tick_period * (blind ? 2 : 3) / 2;
   return std::max(Nanoseconds{0}, due - clock_.Now());
 }
 
 void VehicleLoop::Turn(bool leaving) {
   const bool by_scan = link_.WaitForScan(leaving ? Nanoseconds{0} : Patience());
   if (HangSignal::IsUp()) HangWhileUp();
-  const SteadyTime woke = clock_.Now();
+  const SteadyTime woke = last_turn_ = clock_.Now();
   link::Taken taken = link_.Take(woke);
   Inputs& inputs = taken.inputs;
   KeepPlace(taken, woke);
@@ -167,7 +168,6 @@ bool VehicleLoop::Step(link::Taken* taken, SteadyTime woke, bool by_scan) {
   const Nanoseconds decided = clock_.ThreadTime() - before;
   outputs.command.matched_peers = link_.Counters().matched_peers;
   link_.Send(outputs);
-  last_beacon_ = woke;
   const SteadyTime sent = clock_.Now();
   report_.NoteStep(decided, by_scan ? sent - woke : Nanoseconds{0});
   // After the wheels have their command: the rest is not time-critical.

@@ -87,7 +87,7 @@ class VehicleLoop {
   VehicleReport report_;
   VehicleLog log_;
   SteadyTime last_scan_{0};
-  SteadyTime last_beacon_{0};
+  SteadyTime last_turn_{0};
   SteadyTime next_status_{0};
   WorldTime world_time_;
 };

@@ -294,6 +294,20 @@ TEST(VehicleLoop, InLockstepHoldsBeaconsUntilATick) {
   EXPECT_EQ(bench.Link().LastStatus().beacons.accepted, 1U);
 }
 
+// It took a core for itself until the next tick.
+TEST(VehicleLoop, InLockstepWaitsForItsScanAgainWhereNoneCame) {
+  LoopBench bench(
+      [](std::uint32_t turn) {
+        Arrival arrival;
+        if (turn < 3) arrival.scan = Scan(turn);
+        return arrival;
+      },
+      {.lockstep = true});
+  bench.StopAt(20);
+  bench.Drive();
+  for (std::size_t i = 3; i < 20; ++i) EXPECT_GE(bench.Link().Waits().at(i), milliseconds(50)) << i;
+}
+
 TEST(VehicleLoop, AwaitsAScanHalfAPeriodLongerThanItShouldTake) {
   LoopBench bench(ScanOnly);
   bench.StopAt(4);
