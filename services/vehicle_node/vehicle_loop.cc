@@ -22,6 +22,11 @@ constexpr Nanoseconds kFlushTimeout = milliseconds(300);
 constexpr Nanoseconds kHaltPatience = std::chrono::seconds(5);
 constexpr int kGoodByes = 3;  // best effort: one may be lost
 
+bool HaveTheSameSensors(const RobotModel& one, const RobotModel& other) {
+  return one.radar == other.radar && one.lidar == other.lidar && one.camera == other.camera &&
+         one.pose_fix.Fitted() == other.pose_fix.Fitted();
+}
+
 }  // namespace
 
 VehicleLoop::VehicleLoop(const VehicleLoopParts& parts, const Scenario& scenario,
@@ -36,6 +41,7 @@ VehicleLoop::VehicleLoop(const VehicleLoopParts& parts, const Scenario& scenario
       lockstep_(options.lockstep),
       place_(&link_, &clock_, entry, options.stays),
       options_(OptionsOf(scenario, entry)),
+      opened_for_(options_.profile),
       boot_epoch_(RandomNonZero()),
       vehicle_(options_, boot_epoch_),
       news_(entry),
@@ -157,6 +163,9 @@ void VehicleLoop::Follow(const RosterEntry& entry) {
   if (recorder_ != nullptr) recorder_->Reseat(options_);
   health_.OnPlaced(options_.id, options_.ranges_age_limit);
   LogInfo("drives on in world " + std::to_string(Number(entry.epoch)));
+  if (HaveTheSameSensors(opened_for_, options_.profile)) return;
+  LogInfo("its place there has other sensors: restarts itself");
+  restarts_ = true;
 }
 
 // True if the decision is another one.

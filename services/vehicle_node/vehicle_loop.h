@@ -46,12 +46,13 @@ enum class DriveEnd : std::uint8_t { kOver, kRefused, kRestarts, kScansLost };
 
 class VehicleLoop {
  public:
+  // The link was opened for the profile that the entry gives.
   VehicleLoop(const VehicleLoopParts& parts, const Scenario& scenario, const RosterEntry& entry,
               const VehicleLoopOptions& options);
 
   // Until the run has ended (unless it stays), `is_stopped`, the world refuses it, or an operator's
-  // order takes a restart. Halts, and sends a leave notice if the run continues without it: finally
-  // in the second case, in the last it keeps its place.
+  // order or a place with other sensors takes a restart. Halts, and sends a leave notice if the run
+  // continues without it: finally in the second case, in the last it keeps its place.
   DriveEnd Drive(const std::function<bool()>& is_stopped);
   const SessionId& Session() const { return place_.Entry().session; }
   VehicleId Id() const { return options_.id; }
@@ -78,6 +79,7 @@ class VehicleLoop {
   const bool lockstep_;
   VehiclePlace place_;
   VehicleOptions options_;
+  const RobotModel opened_for_;  // the link has readers for its sensors, and gets no others
   const std::uint32_t boot_epoch_;
   Vehicle vehicle_;
   std::optional<RosterEntry> news_;  // that the brain has yet to hear

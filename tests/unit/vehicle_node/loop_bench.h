@@ -177,6 +177,7 @@ class LoopBench {
   }
   // After that many turns it is asked to stop.
   void StopAt(std::uint32_t turn) { stop_at_ = turn; }
+  void FitRadarAtSpawn() { scenario_.spawns.front().profile.radar = true; }
   void StopAsItAsksForTime() { stops_as_it_asks_ = true; }
   // At the end of that turn an administrative request asks for a restart.
   void OrderRestartAt(std::uint32_t turn) { order_at_ = turn; }

@@ -202,25 +202,43 @@ TEST(VehicleLoop, ToldToStopWhileItAsksForItsTimeLeaves) {
   EXPECT_THAT(bench.Link().Calls(), ::testing::IsSupersetOf({"join 1", "leave", "last status"}));
 }
 
-TEST(VehicleLoop, IsReseatedByANewEpoch) {
+// In the next world, at a spawn place of another profile.
+RosterEntry SpawnedElsewhere() {
   RosterEntry elsewhere = Entry(RunState::kRunning, kNextWorld);
   elsewhere.start_world = {{4, 5}, 1};
   elsewhere.spawn = 1;
-  LoopBench bench([=](std::uint32_t turn) {
-    Arrival arrival;
-    arrival.scan = Scan(turn, turn < 5 ? kEpoch : kNextWorld);
-    if (turn == 5) arrival.roster = elsewhere;
-    return arrival;
-  });
+  return elsewhere;
+}
+
+Arrival IsSpawnedElsewhereAtTheFifth(std::uint32_t turn) {
+  Arrival arrival;
+  arrival.scan = Scan(turn, turn < 5 ? kEpoch : kNextWorld);
+  if (turn == 5) arrival.roster = SpawnedElsewhere();
+  return arrival;
+}
+
+TEST(VehicleLoop, IsReseatedByANewEpoch) {
+  LoopBench bench(IsSpawnedElsewhereAtTheFifth);
   bench.StopAt(6);
-  bench.Drive();
+  EXPECT_EQ(bench.Drive(), DriveEnd::kOver);
   const auto& sent = bench.Link().Sent();
   EXPECT_EQ(sent.at(3).beacon.world_epoch, kEpoch);
   EXPECT_EQ(sent.at(4).beacon.world_epoch, kNextWorld);
-  EXPECT_EQ(sent.at(4).beacon.world_from_body, elsewhere.start_world);
+  EXPECT_EQ(sent.at(4).beacon.world_from_body, SpawnedElsewhere().start_world);
   EXPECT_EQ(sent.at(3).beacon.cruise_m_s, DefaultOptions().cruise_m_s);
   EXPECT_EQ(sent.at(4).beacon.cruise_m_s, LoopBench::kSpawnCruise_m_s);
   EXPECT_EQ(sent.at(4).beacon.boot_epoch, sent.at(3).beacon.boot_epoch);
+}
+
+// It drove on without a reader for the radar that its new profile has.
+TEST(VehicleLoop, ThatIsGivenAPlaceWithOtherSensorsRestartsAndKeepsThePlace) {
+  LoopBench bench(IsSpawnedElsewhereAtTheFifth);
+  bench.FitRadarAtSpawn();
+  EXPECT_EQ(bench.Drive(), DriveEnd::kRestarts);
+  EXPECT_EQ(bench.Link().Sent().at(4).command.target, WheelSpeeds{});
+  ASSERT_EQ(bench.Link().JoinRequests().size(), 1U);
+  EXPECT_EQ(bench.Link().JoinRequests().front().session, kSession);
+  EXPECT_EQ(std::ranges::count(bench.Link().Calls(), "leave"), 0);
 }
 
 TEST(VehicleLoop, ThatIsDeafWhileItsWorldSpeaksRestartsForANewParticipant) {
