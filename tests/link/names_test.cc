@@ -111,6 +111,22 @@ TEST(WriterNames, KeepsTheOrderOfFirstDiscoveryWhenAWriterComesBack) {
   EXPECT_LT(names.Find(WriterNumber(1))->found, names.Find(WriterNumber(2))->found);
 }
 
+// After a cut longer than the lease all beacons lost in it were counted as overwritten unread.
+TEST(WriterNames, CountsAWriterThatIsFoundAgainFromItsNextSample) {
+  WriterNames names;
+  const auto find = [&] {
+    names.OnWriter(DiscoveryListener::Change::kFound, WriterNumber(1), {"main/v4"});
+    names.Update();
+    return names.Find(WriterNumber(1));
+  };
+  find()->last_sequence = 41;
+  EXPECT_EQ(find()->last_sequence, 41U) << "it was never gone";
+  names.OnWriter(DiscoveryListener::Change::kGone, WriterNumber(1), {});
+  names.Update();
+  EXPECT_EQ(names.Find(WriterNumber(1))->last_sequence, 41U) << "its last samples may yet be taken";
+  EXPECT_EQ(find()->last_sequence, 0U);
+}
+
 TEST(Identity, DiffersBetweenWritersAndIsNeverZero) {
   std::vector<std::uint64_t> seen;
   for (std::uint32_t i = 0; i < 1000; ++i) seen.push_back(Identity(WriterNumber(i)));

@@ -8,7 +8,7 @@ namespace {
 
 // Writers that left stay known, because their last samples and the event that they left are drained
 // after the news of it: for two updates, however many leave at once, and the last few until others
-// follow, so that one that is found again continues its count. Some 110 bytes each.
+// follow, so that one that is found again keeps its place in the order. Some 110 bytes each.
 constexpr std::uint64_t kGoneUpdates = 2;
 constexpr std::size_t kGoneKept = 256;
 
@@ -80,6 +80,8 @@ void WriterNames::Update() {
     WriterEntry& entry = writers_[queued.identity];
     entry.identity = queued.identity;
     if (entry.found == 0) entry.found = ++found_;
+    // To the library it is a new one: of what it sent meanwhile nothing was received.
+    if (entry.gone && queued.change == Change::kFound) entry.last_sequence = 0;
     entry.gone = queued.change == Change::kGone;
     if (entry.gone) {
       gone_.push_back({queued.identity, updates_});

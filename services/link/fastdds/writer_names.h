@@ -33,11 +33,13 @@ struct WriterEntry {
   VehicleId vehicle = kNoVehicle;  // named by its partition
   std::string area;                // of a writer of beacons, else empty
   std::uint64_t identity = 0;
-  std::uint64_t last_sequence = 0;  // of the last sample taken from it; 0 before the first
-  std::uint32_t taken = 0;          // samples; wraps
-  std::uint32_t unreadable = 0;     // of those; wraps
-  bool gone = false;                // left; may be found again
-  std::uint64_t found = 0;          // 1, 2, 3 ... in the order of first discovery
+  // Of the last sample taken from it; 0 before the first, and before the first since it was found
+  // again.
+  std::uint64_t last_sequence = 0;
+  std::uint32_t taken = 0;       // samples; wraps
+  std::uint32_t unreadable = 0;  // of those; wraps
+  bool gone = false;             // left; may be found again
+  std::uint64_t found = 0;       // 1, 2, 3 ... in the order of first discovery
 };
 
 class WriterNames final : public DiscoveryListener {
