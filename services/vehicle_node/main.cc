@@ -2,6 +2,8 @@
 // loop is in vehicle_loop.h.
 #include <functional>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "services/config/scenario_file.h"
@@ -18,14 +20,24 @@
 namespace giveway {
 namespace {
 
+// One that comes back, as a vehicle that drives, does so without a recording rather than not at
+// all.
+void OpenRecorder(const ServiceFlags& flags, std::optional<Recorder>* recorder) {
+  if (flags.record.empty()) return;
+  try {
+    recorder->emplace(flags.record, RecorderOptions{flags.record_split, flags.record_ring});
+  } catch (const std::runtime_error& error) {
+    if (!flags.resume) throw;
+    LogError(std::string(error.what()) + "; drives on without a recording");
+  }
+}
+
 // From joining to the end of the link.
 LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario, link::LinkOptions options,
              const StopSignal& stop, const std::function<void()>& settled) {
   VehicleHealthReporter health(flags);
   std::optional<Recorder> recorder;
-  if (!flags.record.empty()) {
-    recorder.emplace(flags.record, RecorderOptions{flags.record_split, flags.record_ring});
-  }
+  OpenRecorder(flags, &recorder);
   options.impairment = ImpairmentOf(flags, scenario);
   const auto servers =
       AwaitServers(options, stop, [&](const std::string& why) { health.OnJoining(why); });

@@ -50,9 +50,16 @@ WorldLoop::WorldLoop(const Scenario& scenario, link::WorldLink* link, ServiceAdm
       start_by_(SteadyNow() + FromSeconds(scenario.start_timeout_s)),
       report_alone_(SteadyNow() + kReminder) {
   if (options_.checkpoint) Resume(*options_.checkpoint);
-  if (options_.checkpoint_file.empty()) return;
+  if (!options_.checkpoint_file.empty()) StartCheckpoints();
+}
+
+// One that restarted itself has its run from elsewhere: a disk that is full does not end it.
+void WorldLoop::StartCheckpoints() {
   const std::string complaint = WriteStateFile(options_.checkpoint_file, State());
-  if (!complaint.empty()) throw std::runtime_error("--checkpoint " + complaint);
+  if (!complaint.empty() && !options_.same_epoch) {
+    throw std::runtime_error("--checkpoint " + complaint);
+  }
+  NoteCheckpoint(complaint);
   checkpoint_writer_ = std::make_unique<StateWriter<>>(
       [this](const std::string& bytes) { return WriteStateFile(options_.checkpoint_file, bytes); });
 }
@@ -325,18 +332,21 @@ bool WorldLoop::Unanswered() const {
 // left.
 void WorldLoop::KeepCheckpoint() {
   if (!checkpoint_writer_) return;
-  NoteCheckpoint();
+  NoteLastCheckpoint();
   const SteadyTime now = SteadyNow();
   if (now < next_checkpoint_) return;
   next_checkpoint_ = now + kCheckpointPeriod;
   checkpoint_writer_->Write(State());
 }
 
-// What became of the last one.
-void WorldLoop::NoteCheckpoint() {
+void WorldLoop::NoteLastCheckpoint() {
   const auto outcome = checkpoint_writer_->TakeOutcome();
-  if (!outcome) return;
-  const std::string line = checkpoint_fault_.Note(*outcome, SteadyNow());
+  if (outcome) NoteCheckpoint(*outcome);
+}
+
+// That it could not be written, and why; empty: it was.
+void WorldLoop::NoteCheckpoint(const std::string& complaint) {
+  const std::string line = checkpoint_fault_.Note(complaint, SteadyNow());
   if (!line.empty()) LogWarning("checkpoint " + line);
 }
 
@@ -354,7 +364,7 @@ bool WorldLoop::AnnounceEnd(Nanoseconds patience) {
   link_.Flush(patience);
   if (checkpoint_writer_) {
     checkpoint_writer_->Finish();
-    NoteCheckpoint();
+    NoteLastCheckpoint();
     RemoveStateFile(options_.checkpoint_file);  // what has ended does not resume
     LogInfo("the longest checkpoint took " +
             std::to_string(Milliseconds(checkpoint_writer_->Longest())) + " ms");

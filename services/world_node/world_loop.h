@@ -71,6 +71,7 @@ class WorldLoop {
   };
 
   void Resume(const sim::FleetCheckpoint& checkpoint);
+  void StartCheckpoints();
   void RunTick();
   void Admit();
   void ReportLeftOut();
@@ -87,7 +88,8 @@ class WorldLoop {
   void AwaitAnswers();
   bool Unanswered() const;
   void KeepCheckpoint();
-  void NoteCheckpoint();
+  void NoteLastCheckpoint();
+  void NoteCheckpoint(const std::string& complaint);
   bool AnnounceEnd(Nanoseconds patience);
   void ReportHealth(HealthStage stage);
   void ReportIfAlone();
