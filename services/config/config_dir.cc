@@ -82,6 +82,15 @@ std::string ResolveScenario(const std::string& argument) {
   return Resolve(argument, "scenarios", "scenario");
 }
 
+std::string ResolveQosFile(const std::string& argument) {
+  std::error_code error;
+  if (!argument.empty() && fs::exists(argument, error)) return argument;
+  if (argument.find('/') != std::string::npos || argument.ends_with(".xml")) return argument;
+  const fs::path shipped =
+      fs::path(ConfigDir()) / "qos" / ((argument.empty() ? "default" : argument) + ".xml");
+  return fs::exists(shipped, error) ? shipped.string() : argument;
+}
+
 std::string ResolveFaults(const std::string& argument) {
   return Resolve(argument, "faults", "fault file");
 }

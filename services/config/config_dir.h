@@ -10,6 +10,11 @@ namespace giveway {
 // Throws InputError naming both places and listing the shipped scenarios.
 std::string ResolveScenario(const std::string& argument);
 
+// The file a profile set means: itself if it exists, else the shipped one of that name
+// ("lossy_radio"), the shipped default if empty. Anything else is returned unchanged, and refused
+// by the code that opens it. Throws InputError if there is no ConfigDir().
+std::string ResolveQosFile(const std::string& argument);
+
 // As ResolveScenario, of a fault file.
 std::string ResolveFaults(const std::string& argument);
 

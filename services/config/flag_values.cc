@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -31,6 +32,25 @@ std::string TwinOf(std::string_view flag) {
     name += c == '-' ? '_' : static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
   }
   return name;
+}
+
+std::optional<double> ParseDuration_s(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, double>, 4> kUnits = {
+      {{"s", 1}, {"m", 60}, {"h", 3600}, {"d", 86400}}};
+  double unit_s = 1;
+  for (const auto& [name, seconds] : kUnits) {
+    if (!text.ends_with(name)) continue;
+    text.remove_suffix(name.size());
+    unit_s = seconds;
+    break;
+  }
+  double number = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc{} || stop != end) return std::nullopt;
+  const double duration_s = number * unit_s;
+  if (!(duration_s >= 0 && duration_s <= kLongestDuration_s)) return std::nullopt;  // nan, too
+  return duration_s;
 }
 
 std::optional<std::string> FlagValues::Text(const std::string& flag) const {
@@ -69,6 +89,15 @@ std::optional<double> FlagValues::Number(const std::string& flag, const Allowed&
   const auto value = Parse<double>(*text);
   if (value && std::isfinite(*value) && allowed.Contains(*value)) return value;
   AddError(flag, "must be a number " + Describe(allowed), "write one in that range");
+  return std::nullopt;
+}
+
+std::optional<double> FlagValues::Duration_s(const std::string& flag, const Allowed& allowed) {
+  const auto text = Text(flag);
+  if (!text) return std::nullopt;
+  const auto value_s = ParseDuration_s(*text);
+  if (value_s && allowed.Contains(*value_s)) return value_s;
+  AddError(flag, "must be a time " + Describe(allowed), "write one such as 90, 90s or 30m");
   return std::nullopt;
 }
 
@@ -111,9 +140,11 @@ std::vector<DiscoveryServer> ReadDiscoveryServers(FlagValues* values) {
 }
 
 std::string ReadQosFlag(FlagValues* values) {
-  if (values->Text("--qos")) return values->TextOr("", "--qos");
+  const std::string set = values->TextOr("default", "--qos");
+  if (set.empty()) return "";
   try {
-    return ConfigDir() + "/qos/default.xml";
+    if (!values->Text("--qos")) return ConfigDir() + "/qos/default.xml";
+    return ResolveQosFile(set);
   } catch (const InputError& error) {
     values->Add(error.Problems());
     return "";

@@ -19,6 +19,12 @@ namespace giveway {
 // GIVEWAY_LOG_LEVEL of --log-level.
 std::string TwinOf(std::string_view flag);
 
+inline constexpr double kLongestDuration_s = 30 * 86400.0;
+
+// A duration as people write it: "90", "90s", "30m", "8h", "2d". In seconds, 0 to
+// kLongestDuration_s; nullopt for any other text.
+std::optional<double> ParseDuration_s(std::string_view text);
+
 class FlagValues {
  public:
   // `given` maps the flags of the command line to their values.
@@ -32,6 +38,8 @@ class FlagValues {
   std::string RequiredText(const std::string& flag, const std::string& remedy);
   std::optional<std::uint32_t> Uint(const std::string& flag, const Allowed& allowed);
   std::optional<double> Number(const std::string& flag, const Allowed& allowed);
+  // As ParseDuration_s.
+  std::optional<double> Duration_s(const std::string& flag, const Allowed& allowed);
   // One of `names`; nothing if not set, or none of them.
   std::optional<std::string> OneOf(const std::string& flag,
                                    std::initializer_list<std::string_view> names);
@@ -51,7 +59,7 @@ class FlagValues {
 //
 // --discovery-server; none where it is not given.
 std::vector<DiscoveryServer> ReadDiscoveryServers(FlagValues* values);
-// --qos, or the shipped set where it is not given.
+// --qos, a file or the name of a shipped set; the shipped default where it is not given.
 std::string ReadQosFlag(FlagValues* values);
 
 }  // namespace giveway

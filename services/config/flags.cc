@@ -31,7 +31,9 @@ void AddFlags(Service service, CommandLine* line) {
   line->Add("--discovery-server", "HOST[:PORT],...",
             "find all participants through these servers, and not by what --qos says; "
             "the first has the id 0, the next 1 (port 11811)");
-  line->Add("--qos", "FILE", "complete Fast DDS XML profiles (default: the shipped ones)");
+  line->Add(
+      "--qos", "SET|FILE",
+      "complete Fast DDS XML profiles: a file, or the name of a shipped set (default: default)");
   if (service == Service::kVehicle) {
     line->Add("--id", "1..4294967295", "id to ask the world for (default: any free one)");
     line->Add("--record", "FILE",
@@ -76,7 +78,8 @@ void AddFlags(Service service, CommandLine* line) {
   line->Add("--behaviour", "NAME",
             "cooperative, lecture_avoid, stock_avoid, lecture_yield, or "
             "lecture_printed, which shows the flaws of the printed scripts: it collides");
-  line->Add("--duration", "SECONDS", "end after this time instead of the scenario's");
+  line->Add("--duration", "TIME",
+            "end after this time instead of the scenario's: 90, 90s or 30m, at most a day");
   line->Add("--admin-key", "FILE",
             "takes orders (fleetctl qos apply) sealed with the key in this file:\n"
             "openssl rand -hex 32 > FILE makes one. Without it no order is taken");
@@ -197,7 +200,7 @@ ServiceFlags Read(Service service, FlagValues* values) {
                                     Name(Behaviour::kStockAvoid), Name(Behaviour::kLectureYield),
                                     Name(Behaviour::kLecturePrinted)});
   if (behaviour) flags.behaviour = BehaviourNamed(*behaviour);
-  flags.duration_s = values->Number("--duration", {0, 86400, "s", true});
+  flags.duration_s = values->Duration_s("--duration", {0, 86400, "s", true});
   flags.lockstep = values->Switch("--lockstep");
   flags.admin = values->Switch("--admin");
   if (values->Text("--admin-key")) flags.admin_key = values->TextOr("", "--admin-key");

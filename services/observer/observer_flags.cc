@@ -37,7 +37,9 @@ constexpr FlagHelp kFlags[] = {
      "DDS domain of the fleet (default: that of the only fleet of this machine)"},
     {"--interface", "NAME|ADDRESS|any", "network interface of DDS (default 127.0.0.1)"},
     {"--discovery-server", "HOST[:PORT],...", "find the fleet through these servers"},
-    {"--qos", "FILE", "Fast DDS XML profiles, those of the fleet (default: the shipped ones)"},
+    {"--qos", "SET|FILE",
+     "Fast DDS XML profiles, a file or a shipped set: those the fleet runs with (default: "
+     "default)"},
     {"--scenario", "FILE|NAME", "shows its walls, doors and obstacles; takes its area"},
     {"--area", "NAME", "whose beacons (default: the scenario's, or main)"},
     {"--address", "ADDRESS", "address of the page (default 127.0.0.1)"},

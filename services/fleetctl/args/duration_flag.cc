@@ -1,29 +1,10 @@
 #include "services/fleetctl/args/duration_flag.h"
 
-#include <array>
-#include <charconv>
 #include <utility>
 
-namespace giveway::fleetctl {
+#include "services/config/flag_values.h"
 
-std::optional<double> ParseDuration_s(std::string_view text) {
-  constexpr std::array<std::pair<std::string_view, double>, 4> kUnits = {
-      {{"s", 1}, {"m", 60}, {"h", 3600}, {"d", 86400}}};
-  double unit_s = 1;
-  for (const auto& [name, seconds] : kUnits) {
-    if (!text.ends_with(name)) continue;
-    text.remove_suffix(name.size());
-    unit_s = seconds;
-    break;
-  }
-  double number = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc{} || stop != end) return std::nullopt;
-  const double duration_s = number * unit_s;
-  if (!(duration_s >= 0 && duration_s <= kLongestDuration_s)) return std::nullopt;  // nan, too
-  return duration_s;
-}
+namespace giveway::fleetctl {
 
 namespace {
 

@@ -37,15 +37,6 @@ std::string NearestSet(const std::string& argument) {
 
 }  // namespace
 
-std::string ResolveQosFile(const std::string& argument) {
-  std::error_code error;
-  if (!argument.empty() && fs::exists(argument, error)) return argument;
-  if (argument.find('/') != std::string::npos || argument.ends_with(".xml")) return argument;
-  const fs::path shipped =
-      fs::path(ConfigDir()) / "qos" / ((argument.empty() ? "default" : argument) + ".xml");
-  return fs::exists(shipped, error) ? shipped.string() : argument;
-}
-
 std::variant<qos::ProfileFile, qos::Finding> ReadQosFile(const std::string& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);

@@ -6,15 +6,14 @@
 #include <variant>
 #include <vector>
 
+#include "services/config/config_dir.h"
 #include "services/qos/profile_check.h"
 #include "services/types/admin.h"
 #include "services/types/scenario.h"
 
 namespace giveway::fleetctl {
 
-// A path, or the shipped set of that name: "lossy_radio". Empty: the shipped default. Anything else
-// is returned unchanged, and refused by the code that opens it.
-std::string ResolveQosFile(const std::string& argument);
+using giveway::ResolveQosFile;
 
 // The file, or the finding that says why it cannot be read. A file over the limit is not read
 // completely.

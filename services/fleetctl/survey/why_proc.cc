@@ -82,6 +82,7 @@ class Reading {
   }
   static bool IsHeld(const fs::path& path) { return path.parent_path() == "/proc/self/fd"; }
   fs::path ConfigFolder() const;
+  fs::path ProfilesNamed(const std::string& argument) const;
 
   const fs::path proc_;
   const fs::path process_;
@@ -192,6 +193,15 @@ void Reading::ReadScenario() {
   AddScenario(file, given, &to_.launch, &to_.not_known);
 }
 
+// A file, or the shipped set of that name, as in services/config/config_dir.cc.
+fs::path Reading::ProfilesNamed(const std::string& argument) const {
+  std::error_code error;
+  if (argument.find('/') != std::string::npos || argument.ends_with(".xml")) return argument;
+  if (fs::exists(Seen(argument), error)) return argument;
+  const fs::path shipped = ConfigFolder() / "qos" / (argument + ".xml");
+  return fs::exists(Seen(shipped), error) ? shipped : fs::path(argument);
+}
+
 void Reading::ReadProfiles() {
   if (to_.launch.qos_file.empty() && ConfigFolder().empty()) {
     to_.launch.qos_file = ResolveQosFile("");
@@ -199,7 +209,7 @@ void Reading::ReadProfiles() {
     return;
   }
   fs::path path = to_.launch.qos_file.empty() ? ConfigFolder() / "qos/default.xml"
-                                              : fs::path(to_.launch.qos_file);
+                                              : ProfilesNamed(to_.launch.qos_file);
   const fs::path seen = Seen(path);
   const bool held = IsHeld(path);
   if (held) path = seen;

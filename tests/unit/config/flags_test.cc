@@ -12,6 +12,7 @@
 namespace giveway {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::internal::CaptureStderr;
 using ::testing::internal::CaptureStdout;
@@ -155,6 +156,27 @@ TEST(Flags, ARingLastsSecondsAndIsNotSplitBySize) {
   EXPECT_THAT(Refusal(words), HasSubstr("leave --record-split out"));
 }
 
+TEST(Flags, ADurationMayHaveItsUnit) {
+  const auto duration_s = [](const char* text) {
+    return std::get<ServiceFlags>(Vehicle({"--scenario", "s", "--domain", "1", "--duration", text}))
+        .duration_s;
+  };
+  EXPECT_EQ(duration_s("90"), 90);
+  EXPECT_EQ(duration_s("90s"), 90);
+  EXPECT_EQ(duration_s("1.5m"), 90);
+  EXPECT_EQ(duration_s("1d"), 86400);
+}
+
+TEST(Flags, ProfilesAreAFileOrAShippedSet) {
+  const auto qos = [](const char* text) {
+    return std::get<ServiceFlags>(Vehicle({"--scenario", "s", "--domain", "1", "--qos", text})).qos;
+  };
+  EXPECT_THAT(qos("lossy_radio"), EndsWith("/qos/lossy_radio.xml"));
+  EXPECT_EQ(qos("no_such_set"), "no_such_set");  // refused by what opens it
+  EXPECT_EQ(qos("lossy_radio.xml"), "lossy_radio.xml");
+  EXPECT_EQ(qos("/proc/self/fd/7"), "/proc/self/fd/7");
+}
+
 TEST(Flags, OnlyAVehicleIsImpairedAndOnlyIfAsked) {
   const std::vector<const char*> least{"--scenario", "s", "--domain", "1"};
   EXPECT_FALSE(std::get<ServiceFlags>(Vehicle(least)).impair);
@@ -251,7 +273,7 @@ TEST(Flags, EveryWrongValueIsNamedWithItsRange) {
         "--id = 0: must be a whole number between 1 and 4294967295",
         "--seed = -1: must be a whole number between 0 and 4294967295",
         "--behaviour = fast: must be one of cooperative, lecture_avoid",
-        "--duration = nan: must be a number above 0 and at most 86400 s",
+        "--duration = nan: must be a time above 0 and at most 86400 s",
         "--log-format = xml: must be one of text, json", "--log-level = all: must be one of debug",
         "--qos = \"\": must not be empty", "--interface = \"\": must not be empty"}) {
     EXPECT_THAT(text, HasSubstr(words));
@@ -262,7 +284,7 @@ TEST(Flags, NumbersWithATailAreRefused) {
   for (const char* domain : {"7x", " 7", "7.0", "0x7", "+7", "", "99999999999999999999"}) {
     EXPECT_THAT(Refusal({"--scenario", "s", "--domain", domain}), HasSubstr("--domain"));
   }
-  for (const char* duration : {"1e400", "inf", "0", "1s"}) {
+  for (const char* duration : {"1e400", "inf", "0", "1sm", "s", "2d"}) {
     EXPECT_THAT(Refusal({"--scenario", "s", "--domain", "1", "--duration", duration}),
                 HasSubstr("--duration"));
   }

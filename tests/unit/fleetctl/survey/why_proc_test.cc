@@ -177,6 +177,16 @@ TEST_F(MadeProc, WhatItWasToldIsOfTheCommandLineElseOfTheEnvironment) {
   EXPECT_TRUE(ParticipantNumber(*situation, qos::Policy::kPortBase));
 }
 
+TEST_F(MadeProc, ProfilesMayBeNamedAsAShippedSet) {
+  Write("42/cmdline", Zeros({"/opt/bin/giveway-vehicle", "--domain", "7", "--qos", "radio"}));
+  Write("42/environ", Zeros({"GIVEWAY_CONFIG_DIR=/etc/giveway"}));
+  Write("root/etc/giveway/qos/radio.xml", "<dds><profiles/></dds>");
+  const auto situation = ReadSituation(folder_, 42);
+  ASSERT_TRUE(situation);
+  EXPECT_EQ(situation->launch.qos_file, "/etc/giveway/qos/radio.xml");
+  EXPECT_TRUE(situation->profiles);
+}
+
 TEST_F(MadeProc, WhatTheSystemGivesItIsReadFactByFact) {
   const auto situation = ReadSituation(folder_, 42);
   ASSERT_TRUE(situation);
