@@ -21,7 +21,11 @@ constexpr const char* kFooter = R"(
 Every flag has a twin in the environment: --log-level is also GIVEWAY_LOG_LEVEL. The flag wins; an
 empty variable counts as unset. GIVEWAY_CONFIG_DIR names the folder with qos/ and scenarios/.
 
-Exit code 2: a flag, a file or the network was not usable; stderr says which.
+Exit code: 0 the run is over (of the world: passed), or it was stopped by SIGTERM or SIGINT; 1 the
+run failed (world), or the network interface was replaced by another (vehicle); 2 a flag, a file or
+the network was not usable, or the world refused the vehicle: stderr says which; 70 the control loop
+hung, and the watchdog ended it; 130 or 143 it had not left a second after SIGINT or SIGTERM, or a
+second signal came.
 )";
 
 void AddFlags(Service service, CommandLine* line) {
@@ -119,6 +123,10 @@ void ReadRing(FlagValues* values, ServiceFlags* flags) {
 
 void ReadRecord(FlagValues* values, ServiceFlags* flags) {
   if (values->Text("--record")) flags->record = values->TextOr("", "--record");
+  for (const char* flag : {"--record-split", "--record-ring"}) {
+    if (!values->Text(flag) || values->Text("--record")) continue;
+    values->AddError(flag, "says how to record, and nothing is recorded", "give --record FILE");
+  }
   ReadRing(values, flags);
   const auto split = values->Text("--record-split");
   if (!split) return;

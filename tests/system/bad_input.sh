@@ -125,6 +125,8 @@ refused "seed of 33 bits" 'seed' intersection_yield --seed 4294967296
 refused "duration nan" 'duration' intersection_yield --duration nan
 refused "duration 0" 'duration' intersection_yield --duration 0
 refused "unknown behaviour" 'behaviour' intersection_yield --behaviour reckless
+refused "ring of no recording" 'record-ring requires --record' intersection_yield --record-ring 60
+refused "recording that replay would not know" 'write run\.bag\.mcap' intersection_yield --record-topics run.bag
 refused "absent QoS file" 'no_such\.xml' intersection_yield --qos no_such.xml
 refused "QoS file that is no XML" 'good\.textproto' intersection_yield --qos "$good"
 # On these the library would loop for ever, deaf to SIGTERM: no program may pass them on.

@@ -1,5 +1,8 @@
 #include "services/fleetctl/args/flag_checks.h"
 
+#include <optional>
+
+#include "services/config/flags.h"
 #include "services/config/impair.h"
 
 namespace giveway::fleetctl {
@@ -14,6 +17,24 @@ std::string CheckImpairment(const std::string& text) {
     wrong += (wrong.empty() ? "" : "\n") + problem.message + "; " + problem.remedy;
   }
   return wrong;
+}
+
+std::string CheckRecordingName(const std::string& file) {
+  constexpr const char* kEnding = ".mcap";
+  if (file.empty()) return CheckNotEmpty(file);
+  if (file.ends_with(kEnding)) return {};
+  return "'" + file +
+         "' does not end in .mcap, by which replay and report know a recording; write " + file +
+         kEnding;
+}
+
+Behaviour ParseBehaviour(const std::string& name) {
+  const std::optional<Behaviour> behaviour = BehaviourNamed(name);
+  if (behaviour) return *behaviour;
+  throw CLI::ValidationError(
+      "--behaviour",
+      "must be cooperative, lecture_avoid, stock_avoid, lecture_yield or lecture_printed, not '" +
+          name + "'");
 }
 
 void AddDiscoveryFlag(CLI::App* verb, std::vector<DiscoveryServer>* servers) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "services/types/decision.h"
 #include "services/types/discovery_server.h"
 
 namespace giveway::fleetctl {
@@ -17,6 +18,11 @@ inline constexpr std::uint32_t kMostReckonedWith = 4096;
 
 std::string CheckNotEmpty(const std::string& text);
 std::string CheckImpairment(const std::string& text);
+// Of an MCAP recording to be written: replay and report know it by its ending.
+std::string CheckRecordingName(const std::string& file);
+
+// The behaviour of that name. Throws CLI::ValidationError with all names.
+Behaviour ParseBehaviour(const std::string& name);
 
 void AddInterfaceFlag(CLI::App* verb, std::string* interface);
 // Servers as HOST[:PORT],...

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "services/config/byte_size.h"
+#include "services/config/flag_values.h"
 #include "services/fleetctl/args/duration_flag.h"
 #include "services/fleetctl/args/flag_checks.h"
 #include "services/fleetctl/args/observer_flags.h"
@@ -64,7 +65,7 @@ void AddRecordVerb(CLI::App* fleetctl, int* exit_code) {
   verb->footer(kRecordFooter);
   verb->add_option("OUT", options->files.path, "The file, OUT.mcap; it must not be there yet")
       ->required()
-      ->check(CheckNotEmpty);
+      ->check(CheckRecordingName);
   AddObserverFlags(verb, &options->where);
   verb->add_option("--topics", options->topics, "Only these, with commas between them")
       ->delimiter(',')

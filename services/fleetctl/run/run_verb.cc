@@ -4,7 +4,6 @@
 #include <string>
 
 #include "services/config/byte_size.h"
-#include "services/config/flags.h"
 #include "services/config/impair.h"
 #include "services/fleetctl/args/duration_flag.h"
 #include "services/fleetctl/args/flag_checks.h"
@@ -39,19 +38,11 @@ std::string CheckSplit(const std::string& text) {
   return "'" + text + "' is no size a recording is split by; " + kSplitRemedy;
 }
 
-Behaviour ParseBehaviour(const std::string& name) {
-  const std::optional<Behaviour> behaviour = BehaviourNamed(name);
-  if (behaviour) return *behaviour;
-  throw CLI::ValidationError(
-      "--behaviour",
-      "must be cooperative, lecture_avoid, stock_avoid, lecture_yield or lecture_printed, not '" +
-          name + "'");
-}
-
 void AddScenarioFlags(CLI::App* verb, RunOptions* options) {
   verb->add_option("SCENARIO", options->scenario, "A scenario file, or the name of a shipped one")
       ->required();
   AddTimeFlag(verb, "--duration", &options->fleet.duration_s, "End after this time")
+      ->default_str("the scenario's")
       ->envname("GIVEWAY_DURATION");
   verb->add_option_function<std::string>(
           "--behaviour",
@@ -63,8 +54,11 @@ void AddScenarioFlags(CLI::App* verb, RunOptions* options) {
                    "Moves start poses and cruise speeds; 0 moves nothing")
       ->check(CLI::Range(0U, std::numeric_limits<std::uint32_t>::max()))
       ->envname("GIVEWAY_SEED");
-  verb->add_option("--vehicles", options->fleet.vehicles,
-                   "Of an open fleet: start so many that the scenario does not name")
+  verb->add_option(
+          "--vehicles", options->fleet.vehicles,
+          "Of an open fleet: start so many that the scenario does not name; without it as many as "
+          "its start_with says, which is 1 in patrol, rush_hour, city_grid and "
+          "warehouse_loop")
       ->check(CLI::Range(0U, kMostStarted))
       ->envname("GIVEWAY_VEHICLES");
   verb->add_flag(
@@ -121,16 +115,18 @@ void AddOutputFlags(CLI::App* verb, RunOptions* options) {
                    "Record every topic as it travels into this MCAP file, with the recordings of "
                    "--record within it; it must not be there yet")
       ->type_name("FILE")
-      ->check(CheckNotEmpty)
+      ->check(CheckRecordingName)
       ->envname("GIVEWAY_RECORD_TOPICS");
   verb->add_option("--record-split", options->fleet.record_split,
                    "Start another file of each recording at this size: 64MiB")
       ->check(CheckSplit)
+      ->needs("--record")
       ->envname("GIVEWAY_RECORD_SPLIT");
   verb->add_option("--record-ring", options->fleet.record_ring,
                    "Keep only the last so many seconds of each recording: 60")
       ->check(CLI::Range(5U, 3600U))
       ->excludes("--record-split")
+      ->needs("--record")
       ->envname("GIVEWAY_RECORD_RING");
   verb->add_option("--log-level", options->fleet.log_level, "Of the world and the vehicles")
       ->check(CLI::IsMember({"debug", "info", "warning", "error"}))

@@ -7,8 +7,9 @@
 #include <regex>
 #include <vector>
 
-#include "services/config/flags.h"
+#include "services/config/flag_values.h"
 #include "services/fleetctl/args/duration_flag.h"
+#include "services/fleetctl/args/flag_checks.h"
 #include "sim_world/virtual/invariants.h"
 
 namespace giveway::fleetctl {
@@ -63,16 +64,21 @@ void AddRadioFlags(CLI::App* verb, CaseOptions* made_by) {
             made_by->loss_percent = NumbersOf("--loss", WithoutPercentSigns(text), 0, 99);
           },
           "Percent of beacons lost: 5%, or LO..HI%")
-      ->type_name("PERCENT");
+      ->type_name("PERCENT")
+      ->default_str("0");
   verb->add_flag("--burst", made_by->burst, "The loss comes in bursts of five beacons on average");
   verb->add_option("--delay", made_by->delay_ms, "Transit time of a beacon in milliseconds")
+      ->default_str("0")
       ->check(Between(0, 1000));
   verb->add_option("--jitter", made_by->jitter_ms,
                    "Maximum random extra transit time in milliseconds")
+      ->default_str("0")
       ->check(Between(0, 1000));
   verb->add_option("--reorder", made_by->reorder_percent, "Percent held back and overtaken")
+      ->default_str("0")
       ->check(Between(0, 100));
   verb->add_option("--duplicate", made_by->duplicate_percent, "Percent heard twice")
+      ->default_str("0")
       ->check(Between(0, 100));
   verb->add_flag("--loopback", made_by->loops_back, "Every vehicle receives its own beacons too");
 }
@@ -264,10 +270,7 @@ void AddCaseFlags(CLI::App* verb, CaseOptions* made_by) {
       "start_with; or LO..HI");
   verb->add_option_function<std::string>(
       "--behaviour",
-      [made_by](const std::string& name) {
-        made_by->behaviour = BehaviourNamed(name);
-        if (!made_by->behaviour) throw CLI::ValidationError("--behaviour", "unknown: " + name);
-      },
+      [made_by](const std::string& name) { made_by->behaviour = ParseBehaviour(name); },
       "Every vehicle drives so: cooperative, lecture_avoid, stock_avoid, lecture_yield, or "
       "lecture_printed, which shows the flaws of the printed scripts: it collides");
   AddTimeFlag(verb, "--duration", &made_by->duration_s,

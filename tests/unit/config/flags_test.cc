@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 #include "services/config/flag_values.h"
@@ -12,6 +13,7 @@
 namespace giveway {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::internal::CaptureStderr;
@@ -154,6 +156,14 @@ TEST(Flags, ARingLastsSecondsAndIsNotSplitBySize) {
   words.back() = "60";
   words.insert(words.end(), {"--record-split", "64MiB"});
   EXPECT_THAT(Refusal(words), HasSubstr("leave --record-split out"));
+}
+
+TEST(Flags, HowToRecordIsRefusedWhereNothingIsRecorded) {
+  for (const auto& [flag, value] :
+       {std::pair{"--record-ring", "60"}, {"--record-split", "64MiB"}}) {
+    const std::vector<const char*> words{"--scenario", "s", "--domain", "1", flag, value};
+    EXPECT_THAT(Refusal(words), AllOf(HasSubstr(flag), HasSubstr("give --record FILE")));
+  }
 }
 
 TEST(Flags, ADurationMayHaveItsUnit) {
