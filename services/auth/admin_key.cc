@@ -14,8 +14,11 @@
 namespace giveway::auth {
 namespace {
 
-[[noreturn]] void Throw(const std::string& file, const char* what) {
-  throw KeyError("admin key " + file + ": " + what + ": " + std::strerror(errno));
+constexpr const char* kRemedy =
+    "; check the path and its permissions, or make one: openssl rand -hex 32 > FILE";
+
+[[noreturn]] void Throw(const std::string& file, const char* what, const char* remedy = "") {
+  throw KeyError("admin key " + file + ": " + what + ": " + std::strerror(errno) + remedy);
 }
 
 // Closes what it opened.
@@ -51,14 +54,14 @@ std::string RandomHex() {
 
 std::string ReadAdminKey(const std::string& file) {
   const File input(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (input.Get() < 0) Throw(file, "cannot be read");
+  if (input.Get() < 0) Throw(file, "cannot be read", kRemedy);
   struct stat about {};
   if (fstat(input.Get(), &about) != 0 || !S_ISREG(about.st_mode)) {
-    throw KeyError("admin key " + file + ": is no regular file");
+    throw KeyError("admin key " + file + ": is no regular file" + kRemedy);
   }
   std::string key(kMostKeyBytes + 1, '\0');
   const ssize_t size = read(input.Get(), key.data(), key.size());
-  if (size < 0) Throw(file, "cannot be read");
+  if (size < 0) Throw(file, "cannot be read", kRemedy);
   key.resize(static_cast<std::size_t>(size));
   const bool too_long = key.size() > kMostKeyBytes;
   while (!key.empty() && std::strchr(" \t\r\n", key.back()) != nullptr) key.pop_back();

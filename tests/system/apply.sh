@@ -115,7 +115,7 @@ says "a canary that serves worse" '.verdict == "rolled_back" and (.trial.worse |
   fail "rolled back to something else: $(grep not out; cat err)"
 
 apply 2 "no vehicle of that id" deadline.xml --to 9 --domain "$domain"
-grep -q 'vehicle 9 is not heard' err || fail "no vehicle of that id: $(cat err)"
+grep -q 'no fleet/admin reader of vehicle 9' err || fail "no vehicle of that id: $(cat err)"
 code=0
 timeout --foreground --preserve-status --signal INT 1 \
   "$FLEETCTL" qos apply deadline.xml --to 9 --domain "$domain" >out 2>err || code=$?

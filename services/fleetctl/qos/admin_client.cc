@@ -8,6 +8,7 @@
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/qos/awaited_answer.h"
+#include "services/fleetctl/qos/qos_apply_report.h"
 #include "services/runtime/process.h"
 
 namespace giveway::fleetctl {
@@ -72,11 +73,13 @@ void AdminClient::ReportRefusals() {
 
 int ReportNotReached(VehicleId vehicle, std::uint32_t domain) {
   const bool interrupted = Interrupts::Count() > 0;
-  std::fprintf(stderr,
-               interrupted ? "interrupted before vehicle %u was heard in domain %u\n"
-                           : "vehicle %u is not heard in domain %u; give the domain and the "
-                             "interface that its fleet was started with\n",
-               Number(vehicle), domain);
+  std::fprintf(
+      stderr,
+      interrupted
+          ? "interrupted before vehicle %u was found in domain %u\n"
+          : "no fleet/admin reader of vehicle %u in domain %u; start it with --admin-key or "
+            "--admin, and give --domain, --interface and --qos as its fleet has them\n",
+      Number(vehicle), domain);
   return interrupted ? 1 : kCouldNotRun;
 }
 
@@ -84,27 +87,26 @@ int ReportNoAnswer(VehicleId vehicle) {
   const bool interrupted = Interrupts::Count() > 0;
   std::fprintf(
       stderr,
-      interrupted ? "interrupted before vehicle %u answered\n" : "vehicle %u does not answer\n",
-      Number(vehicle));
+      interrupted ? "interrupted before %s answered\n" : "%s does not answer; see its log\n",
+      NameOf(vehicle).c_str());
   return interrupted ? 1 : kCouldNotRun;
 }
 
 int ReportRefused(const AdminAnswer& answer) {
-  const std::string who = answer.vehicle == kNoVehicle
-                              ? "the world"
-                              : "vehicle " + std::to_string(Number(answer.vehicle));
-  std::fprintf(stderr, "%s refuses orders of this fleetctl: %s; see --admin-key\n", who.c_str(),
-               answer.reason.c_str());
+  std::fprintf(stderr, "%s refuses orders of this fleetctl: %s; see --admin-key\n",
+               NameOf(answer.vehicle).c_str(), answer.reason.c_str());
   return kCouldNotRun;
 }
 
 int ReportNoneReached(std::uint32_t domain) {
   const bool interrupted = Interrupts::Count() > 0;
-  std::fprintf(stderr,
-               interrupted ? "interrupted before anything was heard in domain %u\n"
-                           : "neither a vehicle nor a world is heard in domain %u; give the domain "
-                             "and the interface that its fleet was started with\n",
-               domain);
+  std::fprintf(
+      stderr,
+      interrupted ? "interrupted before anything was found in domain %u\n"
+                  : "no fleet/admin reader in domain %u; start vehicles and world with --admin-key "
+                    "or --admin, and give --domain, --interface and --qos as their fleet has "
+                    "them\n",
+      domain);
   return interrupted ? 1 : kCouldNotRun;
 }
 
