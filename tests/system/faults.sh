@@ -24,6 +24,9 @@ grep -Eq '^[0-9.]+ s for [0-9.]+ s: vehicle [1-8]: loss probability=0.4  \[loss 
   fail "--json"
 "$FLEETCTL" faults list --json | jq -r '.[] | select(.virtual).kind' >virtual || fail "list --json"
 grep -qx sonar_off virtual || fail "in virtual time: $(<virtual)"
+"$FLEETCTL" faults expand everything --duration 20s --vehicles 4 >none 2>err || fail "20 s: exit code $?"
+grep -q 'leave no time in 20 s' err || fail "no word of a list without faults: $(cat err)"
+
 for verb in faults 'faults expand' 'faults list'; do
   # shellcheck disable=SC2086  # two words
   "$FLEETCTL" $verb --help >/dev/null || fail "$verb --help: exit code $?"

@@ -17,12 +17,23 @@ int Print(const std::string& text) {
   return 0;
 }
 
+// A list without faults looks like a file without rules.
+void ReportNoTime(const faults::Course& course, const faults::Expansion& expansion) {
+  const bool no_time = course.warm_up_s + course.healing_s >= course.duration_s;
+  if (!no_time || !expansion.schedule.empty()) return;
+  std::fprintf(stderr,
+               "no faults: a warm-up of %g s and a healing of %g s leave no time in %g s; give a "
+               "longer --duration, or shorter --warm-up and --healing\n",
+               course.warm_up_s, course.healing_s, course.duration_s);
+}
+
 }  // namespace
 
 int RunFaultsExpand(const FaultsOptions& options) {
   std::vector<VehicleId> vehicles;
   for (std::uint32_t id = 1; id <= options.vehicles; ++id) vehicles.push_back(VehicleId{id});
   const faults::Expansion expansion = LoadAndExpandFaults(options.file, options.course, vehicles);
+  ReportNoTime(options.course, expansion);
   if (options.json) return Print(ExpansionJson(expansion));
   return Print(options.text ? FoldedForTerminal(ExpansionText(expansion))
                             : ExpansionFile(expansion));

@@ -66,7 +66,9 @@ class Listening {
       std::fprintf(stderr, "%s\n", NothingHeard(post_, SteadyNow()).c_str());
       return;
     }
-    std::fprintf(stderr, "a fleet is there, but nothing was received on %s for %.1f s%s\n",
+    std::fprintf(stderr,
+                 "a fleet is there, but nothing was received on %s for %.1f s%s; "
+                 "--area and --qos must be the fleet's: fleetctl why says what does not match\n",
                  std::string(Name(options_.filter.topic)).c_str(), Seconds(Since()),
                  options_.filter.vehicles.empty() ? "" : " of the vehicles asked for");
   }

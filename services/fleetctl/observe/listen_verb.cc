@@ -67,8 +67,10 @@ void AddListenVerb(CLI::App* fleetctl, int* exit_code) {
       ->check(CLI::Range(1U, std::numeric_limits<std::uint32_t>::max()));
   verb->add_flag("--json", options->filter.json, "Print one JSON object a sample");
   verb->add_option("--count", options->count, "End after so many samples")
+      ->default_str("without end")
       ->check(CLI::Range(std::uint64_t{1}, std::numeric_limits<std::uint64_t>::max()));
-  AddTimeFlag(verb, "--duration", &options->duration_s, "End after this time");
+  AddTimeFlag(verb, "--duration", &options->duration_s, "End after this time")
+      ->default_str("without end");
   verb->callback([options, exit_code] { Listen(*options, exit_code); });
 }
 

@@ -87,7 +87,9 @@ int RunLs(bool json) {
     return code != 0 ? code : fleets.empty() ? 1 : 0;
   }
   if (fleets.empty()) {
-    std::fprintf(stderr, "no fleet runs on this machine\n");
+    std::fprintf(stderr,
+                 "no fleet runs on this machine, as far as this user can see its processes (root "
+                 "sees all)\n");
     return 1;
   }
   return ExitCodeOf(WriteStdout(Table(fleets, OwnNetworkNamespace().value_or(0))));

@@ -1,10 +1,14 @@
 #include "services/fleetctl/record/export.h"
 
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "services/fleetctl/args/observer_session.h"
@@ -72,6 +76,7 @@ class Exporting {
           return static_cast<std::size_t>(file->gcount());
         },
         [this](const mcap::Message& message, const mcap::Channel& channel, const mcap::Schema&) {
+          topics_.insert(channel.topic);
           return channel.topic != options_.topic || Take(message);
         });
   }
@@ -114,6 +119,11 @@ class Exporting {
     if (!enough_) enough_ = !use_(std::move(object));
   }
 
+  // Of the whole file: where nothing is of the topic, all of it has been read.
+  std::string Topics() const {
+    return topics_.empty() ? "no samples" : fmt::format("{}", fmt::join(topics_, ", "));
+  }
+
   int Finish(const mcap::ReadResult& result) const {
     if (!result.fault.empty()) {
       std::fprintf(stderr, "%s: %s\n", options_.file.c_str(), result.fault.c_str());
@@ -127,7 +137,8 @@ class Exporting {
                    options_.file.c_str());
     }
     if (written_ == 0) {
-      std::fprintf(stderr, "%s: nothing of %s\n", options_.file.c_str(), options_.topic.c_str());
+      std::fprintf(stderr, "%s: nothing of %s; it has %s\n", options_.file.c_str(),
+                   options_.topic.c_str(), Topics().c_str());
     }
     return result.fault.empty() && unreadable_ == 0 && written_ > 0 ? 0 : kNotAllExported;
   }
@@ -136,6 +147,7 @@ class Exporting {
   CsvColumns columns_;
   Use use_;
   bool enough_ = false;
+  std::set<std::string> topics_;  // of the samples read so far
   WriteResult output_ = WriteResult::kWritten;
   std::uint64_t samples_ = 0;  // of the topic, as far as the columns are those of them all
   std::uint64_t written_ = 0;
