@@ -34,7 +34,8 @@ Examples
   fleetctl ls                              # the fleets on this machine
   fleetctl help run                        # a verb explained, examples first
 
-Exit code of every verb: 0 passed or shown, 1 failed or interrupted, 2 could not run.
+Exit code: 0 passed or shown, 1 failed or interrupted, 2 could not run; of doctor, qos, shrink and
+campaign see their --help.
 )";
 
 }  // namespace

@@ -170,9 +170,13 @@ std::string Usage(const CLI::App& app, const std::string& name) {
   if (has_verbs) usage += " VERB";
   for (const CLI::Option* option :
        app.get_options([](const CLI::Option* argument) { return argument->get_positional(); })) {
+    const std::string name_of_one = option->get_name(true, false);
     const bool many = option->get_expected_max() >= CLI::detail::expected_max_vector_size;
-    const std::string word = option->get_name(true, false) + (many ? "..." : "");
+    const std::string word = name_of_one + (many ? "..." : "");
     usage += option->get_required() ? " " + word : " [" + word + "]";
+    for (int i = option->get_expected_min(); !many && i < option->get_expected_max(); ++i) {
+      usage += " [" + name_of_one + "]";
+    }
   }
   return usage + " [FLAGS]";
 }

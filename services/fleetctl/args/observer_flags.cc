@@ -14,8 +14,11 @@ void AddObserverFlags(CLI::App* verb, ObserverOptions* options) {
   verb->add_option("--area", options->area, "Whose beacons; the scenario names it")
       ->check(CheckNotEmpty)
       ->capture_default_str();
-  verb->add_option("--qos", options->qos_file,
-                   "Fast DDS XML profiles: a file, or a shipped set; those of the fleet")
+  verb->add_option(
+          "--qos", options->qos_file,
+          "Fast DDS XML profiles, a file or a shipped set: give the one the fleet runs with")
+      ->default_str("default")
+      ->type_name("SET|FILE")
       ->check(CheckNotEmpty)
       ->envname("GIVEWAY_QOS");
 }
@@ -25,6 +28,7 @@ void AddAdminKeyFlag(CLI::App* verb, std::string* file) {
           "--admin-key", *file,
           "Orders are sealed with the key in this file; without it, with that of the fleet "
           "that fleetctl run started here")
+      ->type_name("FILE")
       ->check(CheckNotEmpty)
       ->envname("GIVEWAY_ADMIN_KEY");
 }

@@ -8,8 +8,8 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr const char* kShardFooter = R"(
-Runs one of K parts of the campaign and prints one JSON object. PLAN is a file, or the name of a shipped
-one; idl/campaign.proto documents each field. Without --index the engine that started it says which part:
+Runs one of the K shards of the campaign and prints one JSON object. PLAN is a file, or the name of a shipped
+one; idl/campaign.proto documents each field. Without --index the engine that started it says which shard:
 JOB_COMPLETION_INDEX (Kubernetes), SLURM_ARRAY_TASK_ID, or PARALLEL_SEQ - 1 (GNU parallel). With --out DIR
 the object is also a file there, NAME.I-of-K.json, written whole or not at all; where that is there already,
 of the same plan and program, it is printed and nothing is run.
@@ -44,15 +44,16 @@ More: fleetctl campaign shard --help
 
 void AddShard(CLI::App* group, int* exit_code) {
   const auto options = std::make_shared<CampaignShardOptions>();
-  CLI::App* verb = group->add_subcommand("shard", "Run one part of a campaign");
+  CLI::App* verb = group->add_subcommand("shard", "Run one shard of a campaign");
   verb->footer(kShardFooter);
   verb->add_option("PLAN", options->plan, "A campaign file, or the name of a shipped one")
       ->required();
-  verb->add_option("--of", options->of, "Into how many parts it is cut; default the plan's shards")
+  verb->add_option("--of", options->of, "Into how many shards it is cut; default as the plan says")
       ->check(CLI::Range(1U, kMostShards));
-  verb->add_option("--index", options->index, "Which part, from 0; default as the engine says")
+  verb->add_option("--index", options->index, "Which shard, from 0; default as the engine says")
       ->check(CLI::Range(0U, kMostShards - 1));
-  verb->add_option("--jobs", options->jobs, "Runs at a time; default 1")
+  verb->add_option("--jobs", options->jobs, "Runs at a time")
+      ->default_str("1")
       ->check(CLI::Range(1U, 1024U));
   verb->add_option("--out", options->out_folder, "Folder for the result; made if it is missing");
   verb->callback([options, exit_code] { *exit_code = RunCampaignShard(*options); });
@@ -60,7 +61,7 @@ void AddShard(CLI::App* group, int* exit_code) {
 
 void AddMerge(CLI::App* group, int* exit_code) {
   const auto options = std::make_shared<CampaignMergeOptions>();
-  CLI::App* verb = group->add_subcommand("merge", "Add up the results of all parts");
+  CLI::App* verb = group->add_subcommand("merge", "Add up the results of all shards");
   verb->footer(kMergeFooter);
   verb->add_option("RESULT", options->files, "Files or logs of shards")->required();
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
@@ -71,7 +72,7 @@ void AddMerge(CLI::App* group, int* exit_code) {
 
 void AddCampaignVerb(CLI::App* fleetctl, int* exit_code) {
   CLI::App* verb = fleetctl->add_subcommand(
-      "campaign", "Many virtual runs cut into parts, which any number of machines run");
+      "campaign", "Many virtual runs cut into shards, which any number of machines run");
   verb->require_subcommand(1);
   verb->footer(kCampaignFooter);
   AddShard(verb, exit_code);

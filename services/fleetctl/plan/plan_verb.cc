@@ -82,10 +82,13 @@ void AddPlanVerb(CLI::App* fleetctl, int* exit_code) {
   verb->add_option("--hosts", request.hosts, "Hosts, all alike; one also runs the world")
       ->capture_default_str()
       ->check(CLI::Range(1, 4096));
-  verb->add_option("--cores", request.cores, "Of a host")->check(CLI::Range(0.1, 1024.0));
-  verb->add_option("--memory-gib", options->memory_gib, "Of a host")
+  verb->add_option("--cores", request.cores, "Of a host")
+      ->default_str("this machine's")
+      ->check(CLI::Range(0.1, 1024.0));
+  verb->add_option("--memory-gib", options->memory_gib, "Memory of a host, GiB")
+      ->default_str("this machine's")
       ->check(CLI::Range(0.1, 65536.0));
-  verb->add_option("--link-mbit", request.link_mbit_s, "Between two hosts")
+  verb->add_option("--link-mbit", request.link_mbit_s, "Between two hosts, Mbit/s")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1e6));
   verb->add_flag("--containers", request.containers,

@@ -76,7 +76,9 @@ void AddQosApply(CLI::App* qos, int* exit_code) {
       ->type_name("ID,...|all");
   CLI::Option* canary =
       verb->add_option("--canary", options->canary, "This one first, on trial")->type_name("ID");
-  AddTimeFlag(verb, "--watch", &options->watch_s, "How long the canary is on trial")->needs(canary);
+  AddTimeFlag(verb, "--watch", &options->watch_s, "How long the canary is on trial")
+      ->default_str("10s")
+      ->needs(canary);
   verb->add_flag("!--no-restart", options->restart, "Refuse what would take a restart");
   verb->add_flag("--dry-run", options->dry_run, "Say what would change, and change nothing");
   verb->add_flag("--force", options->force,

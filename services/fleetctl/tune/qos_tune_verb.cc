@@ -67,7 +67,8 @@ void AddQosTune(CLI::App* qos, int* exit_code) {
   verb->add_option("--out", options->out, "Folder of the search")
       ->check(CheckNotEmpty)
       ->capture_default_str();
-  verb->add_option("--fleets", options->fleets, "Side by side; without it two a core")
+  verb->add_option("--fleets", options->fleets, "Fleets that run side by side")
+      ->default_str("two a core")
       ->check(CLI::Range(1U, 64U));
   verb->add_option("--seed", options->seed, "Of losses and kills")
       ->check(CLI::Range(0U, std::numeric_limits<std::uint32_t>::max()))

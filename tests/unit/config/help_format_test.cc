@@ -7,6 +7,8 @@
 #include <limits>
 #include <memory>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace giveway {
 namespace {
@@ -51,6 +53,16 @@ TEST_F(HelpFormatTest, NoLineIsWiderThanTheTerminal) {
   EXPECT_LE(LongestLine(Help(60)), 60U);
   EXPECT_LE(LongestLine(Help(80)), 80U);
   EXPECT_LE(LongestLine(Help(120)), 120U);
+}
+
+TEST_F(HelpFormatTest, UsageShowsHowOftenAnArgumentMayBeGiven) {
+  CLI::App app("Compares.", "tool");
+  app.formatter(std::make_shared<HelpFormat>(80));
+  std::vector<std::string> one_or_two;
+  std::vector<std::string> any;
+  app.add_option("REPORT", one_or_two)->required()->expected(1, 2);
+  app.add_option("FILE", any);
+  EXPECT_THAT(app.help(), HasSubstr("Usage: tool REPORT [REPORT] [FILE...] [FLAGS]"));
 }
 
 TEST_F(HelpFormatTest, ExamplesComeBeforeFlagsAndNotesAfter) {

@@ -4,7 +4,6 @@
 
 #include "services/fleetctl/args/duration_flag.h"
 #include "services/fleetctl/args/flag_checks.h"
-#include "services/fleetctl/args/observer_flags.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/process/domain_lock.h"
 #include "services/fleetctl/soak/host_faults/discovery_servers.h"
@@ -39,8 +38,11 @@ the program that is built with the tests: --attacker build/release/bin/attacker.
 It needs root. Faults of discovery servers need --discovery-servers.
 
 A DURATION is seconds, or has a unit: 90, 90s, 30m, 12h, 7d. Faults are files or
-shipped sets: calm, radio_storm, flaky_hardware, everything; `fleetctl faults
-expand` prints what comes of one.
+shipped sets: calm, radio_storm, flaky_hardware, everything. No random fault starts
+in the first 10 s and half a second a vehicle, and all are over 20 s before the
+end, each a quarter of the duration at most. To see the list before a soak, give
+`fleetctl faults expand` its seed and these times as --warm-up and --healing; in
+the report folder it is faults.textproto.
 
 Examples
   fleetctl soak patrol --faults calm --duration 2m --report soak
@@ -56,16 +58,21 @@ was too busy to judge.
 )";
 
 void AddSoakFlags(CLI::App* verb, SoakOptions* options) {
-  verb->add_option("SCENARIO", options->scenario, "A scenario file, or the name of a shipped one");
+  verb->add_option("SCENARIO", options->scenario,
+                   "A scenario file, or the name of a shipped one (required, unless --resume or "
+                   "--around)");
   verb->add_option("--faults", options->faults, "A fault file, or the name of a shipped one")
       ->check(CheckNotEmpty)
       ->capture_default_str();
   AddDurationFlag(verb, "--duration", &options->duration_s,
-                  "From the start signal to the verdict: 30s to 30d");
+                  "From the start signal to the verdict: 30s to 30d")
+      ->default_str("5m");
   verb->add_option("--seed", options->seed, "Of start poses, cruise speeds and faults")
       ->check(CLI::Range(0U, std::numeric_limits<std::uint32_t>::max()))
       ->capture_default_str();
-  verb->add_option("--report", options->report_folder, "Folder of the report; made where it is not")
+  verb->add_option(
+          "--report", options->report_folder,
+          "Folder of the report; made where it is not (required, unless --resume or --around)")
       ->check(CheckNotEmpty);
   verb->add_option("--vehicles", options->vehicles, "Of an open fleet; without it one a place")
       ->check(CLI::Range(1U, kMostStarted));
@@ -75,7 +82,13 @@ void AddSoakFlags(CLI::App* verb, SoakOptions* options) {
   verb->add_option("--domain", options->domain, "DDS domain; without it the first free one")
       ->check(CLI::Range(kFirstDomain, kLastDomain));
   AddInterfaceFlag(verb, &options->interface);
-  AddAdminKeyFlag(verb, &options->admin_key);
+  verb->add_option(
+          "--admin-key", options->admin_key,
+          "Orders of the soak to its fleet are sealed with the key in this file; without it, the "
+          "soak makes a key for itself")
+      ->type_name("FILE")
+      ->check(CheckNotEmpty)
+      ->envname("GIVEWAY_ADMIN_KEY");
   verb->add_option("--discovery-servers", options->discovery_servers,
                    "Discovery servers that the soak starts for its fleet")
       ->check(CLI::Range(0U, kMostDiscoveryServers))
