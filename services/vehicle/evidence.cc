@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "services/vehicle/situation/blocked.h"
 #include "services/vehicle/situation/echoes.h"
 #include "services/vehicle/situation/heard_places.h"
 #include "services/vehicle/situation/objects_ahead.h"
@@ -15,9 +16,7 @@ std::optional<double> FreeOf(const Situation& s, const Decision& decision) {
     case Rule::kNotGranted:
     case Rule::kPeerLost:
     case Rule::kKeepClear:
-      for (const PeerView& view : s.near.peers) {
-        if (view.peer->id == decision.peer) return view.gap_m;
-      }
+      if (const PeerView* view = ViewOf(decision.peer, s.near.peers)) return view->gap_m;
       return std::nullopt;
     case Rule::kObstacle:
     case Rule::kUnidentifiedMotion:

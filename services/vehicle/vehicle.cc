@@ -348,11 +348,16 @@ void Vehicle::KeepBlocked(VehicleId blocked_by, const Situation& s) {
     state.last.blocked_tick = s.own.tick;
     return;
   }
-  // Nor with a hold that only the inherited priority makes.
-  if (IsHeldByOwnKey(state.last.blocked_by, s)) state.last.blocked_tick = s.own.tick;
+  const PeerView* blocker = ViewOf(state.last.blocked_by, s.near.peers);
+  const bool fresh = blocker != nullptr && blocker->fresh;
+  // Nor with a hold that only the inherited priority makes: without that key this vehicle would
+  // drive on until the peer blocks it, which would inherit again.
+  if (fresh && blocker->peer->encounter.holds && blocker->peer->beacon.order.vehicle == options_.id)
+    state.last.blocked_tick = s.own.tick;
   const bool recent = state.last.blocked_tick != kNoTick && !s.own.arrived &&
                       TicksBetween(state.last.blocked_tick, s.own.tick) <= kBlockedTicks;
-  if (!recent || !IsStillNear(state.last.blocked_by, s)) state.last.blocked_by = kNoVehicle;
+  const bool near = fresh && blocker->gap_m < kQueueWithin_m;  // to block it again at once
+  if (!recent || !near) state.last.blocked_by = kNoVehicle;
 }
 
 Beacon Vehicle::MakeBeacon(const Situation& s) {

@@ -15,10 +15,6 @@ namespace {
 // the ultrasonics showed the wall on the other side too late.
 constexpr double kRoundSpeed_m_s = 0.2;
 
-bool IsAvoiding(Behaviour behaviour) {
-  return behaviour == Behaviour::kLectureAvoid || behaviour == Behaviour::kStockAvoid;
-}
-
 // The ladder: how much of what a decision wants to know is known.
 Mode ModeOf(const Situation& s) {
   if (s.own.leaving) return Mode::kLeaving;
@@ -131,10 +127,10 @@ bool StandsAtLine(const StopLine& line, const Situation& s) {
 
 Action Decide(const Situation& s) {
   const std::optional<Proposal> limit = MostRestrictive(s);
-  const bool avoids = IsAvoiding(s.own.options.behaviour) && !limit;
-  Action action = avoids ? AvoidingAction(s) : DrivingAction(s, limit);
-  if (s.own.options.behaviour == Behaviour::kLecturePrinted && !limit)
-    action = AsPrinted(s, action);
+  const Behaviour behaviour = s.own.options.behaviour;
+  const bool avoids = behaviour == Behaviour::kLectureAvoid || behaviour == Behaviour::kStockAvoid;
+  Action action = avoids && !limit ? AvoidingAction(s) : DrivingAction(s, limit);
+  if (behaviour == Behaviour::kLecturePrinted && !limit) action = AsPrinted(s, action);
   if (s.own.stop_line && !IsReportedBeforeLight(action.decision.rule) &&
       StandsAtLine(*s.own.stop_line, s)) {
     action.decision = {.rule = Rule::kSignal, .cause_tick = s.own.stop_line->tick};

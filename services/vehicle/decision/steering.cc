@@ -60,11 +60,6 @@ bool Queues(const PeerView& view, const Situation& s) {
          Dot(view.path_world, s.own.path.direction_world) > kSameDirection * path_m;
 }
 
-// Stands only because of a third vehicle, and resumes with it.
-bool IsHeldUp(const PeerView& view) {
-  return view.fresh && view.peer->beacon.rule == Rule::kKeepClear;
-}
-
 // True for a peer to steer round: one that stands. A peer that has priority and could start at any
 // time is handled by right of way as long as its beacon says that it will resume.
 bool StandsInPath(const PeerView& view, const Situation& s) {
@@ -72,7 +67,9 @@ bool StandsInPath(const PeerView& view, const Situation& s) {
     return view.fresh && view.standing && view.grants && !view.has_priority;
   }
   if (!view.standing || view.peer->left || MutantActive(Mutant::kSteersRoundNobody)) return false;
-  if (IsHeldUp(view) && !s.escape.no_progress) return false;
+  // One that stands only because of a third vehicle resumes with it.
+  const bool held_up = view.fresh && view.peer->beacon.rule == Rule::kKeepClear;
+  if (held_up && !s.escape.no_progress) return false;
   return !Queues(view, s) || (s.escape.long_no_progress && !view.at_signal);
 }
 

@@ -26,7 +26,7 @@ Stretch WhereBetween(double offset, double slope, double low, double high) {
 
 Stretch Intersection(const Stretch& a, const Stretch& b) {
   const Stretch both{std::max(a.begin_m, b.begin_m), std::min(a.end_m, b.end_m)};
-  return IsEmpty(both) ? kNowhere : both;
+  return both.begin_m > both.end_m ? kNowhere : both;
 }
 
 Stretch Hull(const Stretch& a, const Stretch& b) {
@@ -91,9 +91,9 @@ Stretch StretchNearSegment(const Path& path, const Path& other, double length_m,
 std::optional<Conflict> FindConflict(const Path& own, const Path& peer, double reach_m) {
   const PairOfLines pair = PairOf(own, peer);
   const Stretch of_own = StretchNear(pair, reach_m);
-  if (IsEmpty(of_own) || of_own.end_m <= 0) return std::nullopt;
+  if (of_own.end_m <= 0) return std::nullopt;
   const Stretch of_peer = StretchNear(Swapped(pair), reach_m);
-  if (IsEmpty(of_peer) || of_peer.end_m <= 0) return std::nullopt;
+  if (of_peer.end_m <= 0) return std::nullopt;
   constexpr double kAcross = 0.5;  // the sine of 30 degrees
   return Conflict{of_own, of_peer, Magnitude(pair.sine) > kAcross};
 }

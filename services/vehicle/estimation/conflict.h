@@ -9,13 +9,12 @@
 
 namespace giveway {
 
-// A stretch of a path, metres from its start. Negative lies behind the start. An empty one ends
-// before it starts.
+// A stretch of a path, metres from its start. Negative lies behind the start. An empty one starts
+// at infinity and ends at minus infinity: also one that lies behind ends no later than at 0.
 struct Stretch {
   double begin_m = 0;
   double end_m = 0;
 };
-constexpr bool IsEmpty(const Stretch& stretch) { return stretch.begin_m > stretch.end_m; }
 
 // A path: from a point onwards along a unit vector.
 struct Path {

@@ -1,11 +1,9 @@
 #include "services/vehicle/estimation/range_view.h"
 
+#include "services/types/math/math.h"
+
 namespace giveway {
 namespace {
-
-bool IsOneObject(double closing_m_s) {
-  return closing_m_s < kMaxClosing_m_s && closing_m_s > -kMaxClosing_m_s;
-}
 
 void Hear(SensorView* view, const RangeReading& reading) {
   view->kind = reading.kind;
@@ -28,7 +26,7 @@ void Update(SensorView* view, const RangeReading& reading, Nanoseconds tick_peri
   const bool both_echo = view->kind == Echo::kEcho && reading.kind == Echo::kEcho;
   const double dt_s = both_echo ? SecondsBetween(*view, reading, tick_period) : 0;
   const double closing = dt_s > 0 ? (view->range_m - reading.range_m) / dt_s : 0;
-  if (dt_s > 0 && IsOneObject(closing)) {
+  if (dt_s > 0 && Magnitude(closing) < kMaxClosing_m_s) {  // of one and the same object
     view->closing_m_s = view->streak == 0 ? closing : 0.5 * (view->closing_m_s + closing);
     ++view->streak;
   } else {
@@ -48,7 +46,7 @@ void UpdateImperfect(SensorView* view, const RangeReading& reading, Nanoseconds 
   const double dt_s = SecondsBetween(*view, reading, tick_period);
   const bool both_echo = view->kind == Echo::kEcho && reading.kind == Echo::kEcho && dt_s > 0;
   const double closing = both_echo ? (view->range_m - reading.range_m) / dt_s : 0;
-  if (both_echo && IsOneObject(closing)) {
+  if (both_echo && Magnitude(closing) < kMaxClosing_m_s) {
     // From 0 on, so that the jitter of the first two readings weighs no more than any other's.
     const double weight = dt_s / (dt_s + kClosingTime_s);
     const double driven = (displacement.driven_m - view->echo_displacement.driven_m) / dt_s;

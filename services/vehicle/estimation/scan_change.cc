@@ -71,10 +71,6 @@ ScanChange AllClear(const RangeView& before, Tick tick, std::uint32_t leaps) {
   return change;
 }
 
-bool IsMoreThanHalf(std::uint32_t some, std::uint32_t all) {
-  return 2 * std::popcount(some) > std::popcount(all);
-}
-
 }  // namespace
 
 ScanChange ChangeOf(const RangeView& before, const RangeScan& scan, const VehicleOptions& options,
@@ -87,8 +83,8 @@ ScanChange ChangeOf(const RangeView& before, const RangeScan& scan, const Vehicl
     if (tally.echoes == 0) return {};
     return {.news = ScanNews::kSame, .echoes = tally.echoes};
   }
-  const bool leaps = IsMoreThanHalf(tally.leaps, cones.enabled);
-  return {.news = leaps ? ScanNews::kLeaps : ScanNews::kOther};
+  const bool most_leap = 2 * std::popcount(tally.leaps) > std::popcount(cones.enabled);
+  return {.news = most_leap ? ScanNews::kLeaps : ScanNews::kOther};
 }
 
 }  // namespace giveway

@@ -14,16 +14,15 @@ constexpr double kOvershoot = 2;
 constexpr double kMostCounted_rad = 1e9;  // thirty years at full speed
 constexpr double kBeyondRange_m = 1;      // of noise on an echo from the edge of the range
 
-// False of NaN.
-bool Within(double x, double limit) { return x >= -limit && x <= limit; }
-
+// False of NaN, as every comparison below.
 bool IsBetween(double x, double low, double high) { return x >= low && x <= high; }
 
-bool IsBearing(double x) { return Within(x, kPi + 1e-9); }
+bool IsBearing(double x) { return Magnitude(x) <= kPi + 1e-9; }
 
 bool IsPlace(Vec2 point_world) {
   constexpr double kMaxCoordinate_m = 100'000;
-  return Within(point_world.x, kMaxCoordinate_m) && Within(point_world.y, kMaxCoordinate_m);
+  return Magnitude(point_world.x) <= kMaxCoordinate_m &&
+         Magnitude(point_world.y) <= kMaxCoordinate_m;
 }
 
 struct ReadingLimits {
@@ -45,8 +44,8 @@ bool IsRange(double range_m, const RobotModel& profile) {
 }
 
 bool CanBeDriven(const Twist& twist, const RobotModel& profile) {
-  return Within(twist.forward_m_s, kOvershoot * profile.max_speed_m_s) &&
-         Within(twist.turn_rad_s, kOvershoot * profile.max_turn_rad_s);
+  return Magnitude(twist.forward_m_s) <= kOvershoot * profile.max_speed_m_s &&
+         Magnitude(twist.turn_rad_s) <= kOvershoot * profile.max_turn_rad_s;
 }
 
 bool IsBelievable(const RangeScan& scan, const VehicleOptions& options) {
@@ -54,8 +53,8 @@ bool IsBelievable(const RangeScan& scan, const VehicleOptions& options) {
   const RobotModel& profile = options.profile;
   const ReadingLimits limits = {scan.tick, Seconds(options.tick_period), profile};
   return CanBeDriven(TwistFromWheels(profile.drive, scan.wheels), profile) &&
-         Within(scan.counted.left_rad, kMostCounted_rad) &&
-         Within(scan.counted.right_rad, kMostCounted_rad) &&
+         Magnitude(scan.counted.left_rad) <= kMostCounted_rad &&
+         Magnitude(scan.counted.right_rad) <= kMostCounted_rad &&
          std::all_of(scan.readings.begin(), scan.readings.end(),
                      [&](const RangeReading& reading) { return IsBelievable(reading, limits); });
 }
@@ -66,7 +65,7 @@ bool IsBelievable(const RadarScan& scan) {
   return std::all_of(seen.begin(), seen.end(), [](const RadarDetection& detection) {
     return IsBetween(detection.range_m, 0, kRadarLongRange_m + kBeyondRange_m) &&
            IsBearing(detection.bearing_rad) &&
-           Within(detection.range_rate_m_s, kOvershoot * 2 * kMaxSpeed_m_s);
+           Magnitude(detection.range_rate_m_s) <= kOvershoot * 2 * kMaxSpeed_m_s;
   });
 }
 

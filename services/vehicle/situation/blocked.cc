@@ -7,14 +7,7 @@
 namespace giveway {
 namespace {
 
-constexpr double kQueueWithin_m = 1.5;   // nearer than this, the one ahead in the lane holds up
 constexpr double kOccupiedWithin_m = 2;  // nearer than this, what stands on the goal blocks
-
-// True if the peer leads in the own lane and is what keeps this vehicle below its cruise speed.
-bool SlowsDown(const PeerView& view, const OwnView& s) {
-  return view.leads && view.fresh && view.gap_m < kQueueWithin_m &&
-         view.speed_m_s < s.options.cruise_m_s;
-}
 
 // The nearest of those that halt for this vehicle.
 VehicleId NearestThatWaits(const Situation& s) {
@@ -30,10 +23,8 @@ VehicleId NearestThatWaits(const Situation& s) {
 // The vehicle that `vehicle` reports as blocking it; kNoVehicle if that is not among the relevant
 // peers.
 VehicleId WhoBlocks(VehicleId vehicle, std::span<const PeerView> views) {
-  for (const PeerView& view : views) {
-    if (view.peer->id == vehicle) return view.fresh ? view.peer->beacon.blocked_by : kNoVehicle;
-  }
-  return kNoVehicle;
+  const PeerView* view = ViewOf(vehicle, views);
+  return view != nullptr && view->fresh ? view->peer->beacon.blocked_by : kNoVehicle;
 }
 
 }  // namespace
@@ -54,8 +45,11 @@ VehicleId BlockedBy(const Situation& s, const Decision& decision, VehicleId not_
     const bool there = view.fresh && (view.standing || view.gap_m < kOccupiedWithin_m);
     if (there && Occupies(view, Toward(s.own), s.own)) return view.peer->id;
   }
-  const auto leader = std::ranges::find_if(
-      s.near.peers, [&s](const PeerView& view) { return SlowsDown(view, s.own); });
+  // In the own lane, and what keeps this vehicle below its cruise speed.
+  const auto leader = std::ranges::find_if(s.near.peers, [&s](const PeerView& view) {
+    return view.leads && view.fresh && view.gap_m < kQueueWithin_m &&
+           view.speed_m_s < s.own.options.cruise_m_s;
+  });
   if (leader != s.near.peers.end()) return leader->peer->id;
   const bool stands = s.own.speed_m_s < kStandingSpeed_m_s;
   if (decision.rule == Rule::kKeepClear && stands) return decision.peer;
@@ -65,17 +59,10 @@ VehicleId BlockedBy(const Situation& s, const Decision& decision, VehicleId not_
   return waiting != kNoVehicle ? waiting : not_passed;
 }
 
-bool IsHeldByOwnKey(VehicleId peer, const Situation& s) {
-  return std::ranges::any_of(s.near.peers, [&](const PeerView& view) {
-    return view.peer->id == peer && view.fresh && view.peer->encounter.holds &&
-           view.peer->beacon.order.vehicle == s.own.options.id;
-  });
-}
-
-bool IsStillNear(VehicleId peer, const Situation& s) {
-  return std::ranges::any_of(s.near.peers, [peer](const PeerView& view) {
-    return view.peer->id == peer && view.fresh && view.gap_m < kQueueWithin_m;
-  });
+const PeerView* ViewOf(VehicleId vehicle, std::span<const PeerView> views) {
+  const auto found = std::ranges::find_if(
+      views, [vehicle](const PeerView& view) { return view.peer->id == vehicle; });
+  return found == views.end() ? nullptr : &*found;
 }
 
 bool IsBehind(VehicleId blocker, VehicleId vehicle, std::span<const PeerView> views) {

@@ -3,11 +3,16 @@
 // for. Says nothing about conflicts of paths that are free.
 #pragma once
 
+#include <span>
+
 #include "services/types/decision.h"
 #include "services/vehicle/estimation/peer_table.h"
 #include "services/vehicle/situation/situation.h"
 
 namespace giveway {
+
+// Nearer than this, the one ahead in the lane holds up.
+inline constexpr double kQueueWithin_m = 1.5;
 
 // The own key, or that of the first in the order that says it is blocked by this vehicle.
 PriorityKey ActingOrder(const PriorityKey& own, const PeerTable& peers, VehicleId own_id);
@@ -17,12 +22,8 @@ PriorityKey ActingOrder(const PriorityKey& own, const PeerTable& peers, VehicleI
 // steer round. kNoVehicle if there is none.
 VehicleId BlockedBy(const Situation& s, const Decision& decision, VehicleId not_passed);
 
-// True if this vehicle holds for that peer while that acts by the key it inherited from this one.
-// Without the key this vehicle would drive on until the peer blocks it, which would inherit again.
-bool IsHeldByOwnKey(VehicleId peer, const Situation& s);
-
-// True if that peer is fresh and near enough to block this vehicle again at once.
-bool IsStillNear(VehicleId peer, const Situation& s);
+// That vehicle among the relevant peers; null if it is none.
+const PeerView* ViewOf(VehicleId vehicle, std::span<const PeerView> views);
 
 // True if `blocker`, or the vehicle that blocks it, and so on along the queue, is `vehicle`.
 bool IsBehind(VehicleId blocker, VehicleId vehicle, std::span<const PeerView> views);

@@ -138,7 +138,7 @@ double FreeBefore(const Claim& claim, const Path& path, double radius_m) {
     return leads_out ? kFar_m : 0;
   }
   const Stretch near = StretchNearSegment(path, claim.axis, claim.length_m, reach_m);
-  return IsEmpty(near) || near.end_m <= 0 ? kFar_m : std::max(0.0, near.begin_m);
+  return near.end_m <= 0 ? kFar_m : std::max(0.0, near.begin_m);
 }
 
 }  // namespace giveway

@@ -97,10 +97,6 @@ bool ComesNearer(const PeerView& view, std::span<const PeerView> views, const Ow
   return false;
 }
 
-bool SaysItStands(const PeerView& view) {
-  return view.standing && Magnitude(view.turn_rad_s) < kTurning_rad_s;
-}
-
 std::uint32_t TicksOf(double time_s, const VehicleOptions& options) {
   return static_cast<std::uint32_t>(time_s / Seconds(options.tick_period));
 }
@@ -126,7 +122,8 @@ void JudgeEchoes(std::span<const PeerView> views, bool someone_lost, const OwnVi
     if (trust.missing_ticks == kMissingTicks) ++counters->beacon_without_echo;
     if (trust.missing_ticks >= kMissingTicks && believes_sonar) Doubt(&trust, s.now);
 
-    trust.standing_ticks = SaysItStands(view) ? trust.standing_ticks + 1 : 0;
+    const bool says_it_stands = view.standing && Magnitude(view.turn_rad_s) < kTurning_rad_s;
+    trust.standing_ticks = says_it_stands ? trust.standing_ticks + 1 : 0;
     // Not while one that has fallen silent may roll by.
     const bool closing =
         trust.standing_ticks > stands && !someone_lost && ComesNearer(view, views, s);

@@ -37,7 +37,7 @@ bool Begins(const PeerView& view, const OwnView& s) {
   if (by_conflict && !view.conflict) return false;
   const double by_metric_m = view.gap_m - view.gate_gap_m;  // nearer by so much; never negative
   const bool critically_close = NearestEchoOf(view, s) - by_metric_m < CriticalDistance(s, view);
-  if (s.options.behaviour == Behaviour::kLectureYield) {
+  if (!by_conflict) {
     const bool parting = !view.conflict && ClosingSpeed(view, s) <= 0;
     return critically_close && !parting && view.peer->beacon.rule != Rule::kArrived &&
            view.peer->beacon.rule != Rule::kLost;
@@ -162,7 +162,6 @@ bool HasLeftBox(const PeerView& view, const OwnView& s) {
 // grant the peer does not enter. A peer that started on an older grant is still accelerating then:
 // from standstill to where it cannot stop takes longer than a beacon may be old.
 bool MayCrossBefore(const PeerView& view, const OwnView& s) {
-  if (s.options.behaviour != Behaviour::kCooperative) return false;
   if (!view.believed || !view.standing || !view.conflict || !view.conflict->across) return false;
   if (view.conflict->peer.begin_m <= 0) return false;
   const Beacon& beacon = view.peer->beacon;

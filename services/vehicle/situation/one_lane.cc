@@ -31,7 +31,7 @@ Stretch Inside(const OneLane& lane, const MovingDisc& disc) {
 
 // True if a path of that length has its end, or any point before, in the section.
 bool LeadsInto(const Stretch& inside, double path_m) {
-  return !IsEmpty(inside) && inside.end_m > 0 && inside.begin_m <= path_m;
+  return inside.end_m > 0 && inside.begin_m <= path_m;
 }
 
 bool IsForward(const OneLane& lane, Vec2 direction_world) {

@@ -44,11 +44,6 @@ bool MustBeAhead(const Disc& place, const OwnView& s) {
          Norm(centre) + place.radius_m <= s.options.profile.sonar_max_range_m;
 }
 
-// True if its body can be that near a transducer.
-bool CanBeWithin(const Disc& place, double range_m) {
-  return Norm(place.centre_body) - place.radius_m <= range_m + 2 * kBody_m;
-}
-
 // True if its body can be what that sensor heard until the tick before.
 bool CanHaveBeen(const Disc& place, std::size_t sensor, const OwnView& s) {
   const double was_m = s.change.was_m[sensor];
@@ -129,11 +124,13 @@ void Note(ScanNews news, std::uint32_t shown, SonarDoubt* doubt) {
   *doubt = {news, std::min(doubt->ticks + shown, kMost)};
 }
 
-// Near when it fell silent. However long ago that was: one without ultrasonics does not see that
-// the world has taken it away.
+// Where a transducer can hear it, when it fell silent. However long ago that was: one without
+// ultrasonics does not see that the world has taken it away.
 bool MayBeNear(const PeerView& view, const OwnView& s) {
   const double silent_s = std::min(SilentSeconds(view, s), kStillThere_s);
-  return CanBeWithin(WhereItIs(view, silent_s, s), s.options.profile.sonar_max_range_m);
+  const Disc place = WhereItIs(view, silent_s, s);
+  const double hears_m = s.options.profile.sonar_max_range_m + 2 * kBody_m;  // centre to centre
+  return Norm(place.centre_body) - place.radius_m <= hears_m;
 }
 
 }  // namespace
