@@ -1,5 +1,5 @@
-// What a vehicle of this fleet can be at most. A scenario with more is refused at start, for no
-// peer would believe a beacon that claims it.
+// What a vehicle of this fleet can be at most, and where. A scenario with more is refused at start,
+// for no peer would believe a beacon that claims it.
 #pragma once
 
 namespace giveway {
@@ -8,5 +8,8 @@ namespace giveway {
 // margin a sender is no vehicle of this fleet.
 inline constexpr double kMaxWheel_rad_s = 30.0;
 inline constexpr double kMaxSpeed_m_s = 2.5;
+
+// No place of a world lies further from its origin along either axis.
+inline constexpr double kMaxCoordinate_m = 100'000;
 
 }  // namespace giveway

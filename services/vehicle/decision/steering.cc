@@ -28,6 +28,8 @@ constexpr double kTurnOnTheSpot_rad = 0.3;
 constexpr double kSmallTurn_rad = 0.02;
 // A gap no wider than this is none.
 constexpr double kNarrow_rad = 0.02;
+// So near to where something would stop it, it comes no further.
+constexpr double kCreeps_m = 0.05;
 
 // An obstacle as seen from the axle centre: no heading between `middle` - `half` and `middle` +
 // `half` gets past it.
@@ -104,7 +106,6 @@ void AddEchoes(const Situation& s, BlockedHeadings* headings) {
   constexpr double kNear_m = 0.6;
   constexpr double kHalf_rad = 0.6;
   constexpr double kTurnAway_rad = 0.15;  // at a time, from what stops the vehicle as it stands
-  constexpr double kCreeps_m = 0.05;      // so near to where it would stop it comes no further
   const RobotModel& profile = s.own.options.profile;
   for (const std::size_t i : BitsOf(s.own.ranges.Echoes() & ~s.near.explained)) {
     const SensorView& view = s.own.ranges[i];
@@ -126,7 +127,6 @@ void AddEchoes(const Situation& s, BlockedHeadings* headings) {
 void AddPlaces(const Situation& s, BlockedHeadings* headings) {
   constexpr double kNear_m = 0.5;     // from the own shell
   constexpr double kPasses_m = 0.08;  // between the shell and the middle of a cell
-  constexpr double kCreeps_m = 0.05;
   constexpr std::size_t kDirections = 32;
   const double room_m = s.own.options.profile.body_radius_m + kPasses_m;
   std::array<const Vec2*, kDirections> nearest{};

@@ -13,7 +13,6 @@
 namespace giveway {
 namespace {
 
-constexpr double kMaxCoordinate_m = 100'000.0;
 constexpr double kMaxSigma_m = 1000.0;
 constexpr double kMaxSigma_rad = 2 * kPi;
 // Of two variances no covariance is greater than their mean, but for rounding.
@@ -26,40 +25,6 @@ constexpr double kMinLength_m = 0.01;
 constexpr double kMaxLength_m = 20;
 constexpr double kAboveZero = std::numeric_limits<double>::denorm_min();
 constexpr double kHeading_rad = kPi + 1e-9;
-
-// Within these every number of a beacon is.
-constexpr Beacon kLeast = {
-    .wheels = {-kMaxWheel_rad_s, -kMaxWheel_rad_s},
-    .cruise_m_s = 0,
-    .world_from_body = {{-kMaxCoordinate_m, -kMaxCoordinate_m}, -kHeading_rad},
-    .covariance = {.xx_m2 = 0,
-                   .xy_m2 = -kMaxSigma_m * kMaxSigma_m,
-                   .yy_m2 = 0,
-                   .xh_m_rad = -kMaxSigma_m * kMaxSigma_rad,
-                   .yh_m_rad = -kMaxSigma_m * kMaxSigma_rad,
-                   .hh_rad2 = 0},
-    .body_radius_m = kMinLength_m,
-    .drive = {kMinLength_m, kMinLength_m},
-    .acceleration_m_s2 = kAboveZero,
-    .deceleration_m_s2 = kAboveZero,
-    .toward_world = {-kMaxCoordinate_m, -kMaxCoordinate_m},
-};
-constexpr Beacon kMost = {
-    .wheels = {kMaxWheel_rad_s, kMaxWheel_rad_s},
-    .cruise_m_s = kMaxSpeed_m_s,
-    .world_from_body = {{kMaxCoordinate_m, kMaxCoordinate_m}, kHeading_rad},
-    .covariance = {.xx_m2 = kMaxSigma_m * kMaxSigma_m,
-                   .xy_m2 = kMaxSigma_m * kMaxSigma_m,
-                   .yy_m2 = kMaxSigma_m * kMaxSigma_m,
-                   .xh_m_rad = kMaxSigma_m * kMaxSigma_rad,
-                   .yh_m_rad = kMaxSigma_m * kMaxSigma_rad,
-                   .hh_rad2 = kMaxSigma_rad * kMaxSigma_rad},
-    .body_radius_m = kMaxLength_m,
-    .drive = {kMaxLength_m, kMaxLength_m},
-    .acceleration_m_s2 = kMaxRate_m_s2,
-    .deceleration_m_s2 = kMaxRate_m_s2,
-    .toward_world = {kMaxCoordinate_m, kMaxCoordinate_m},
-};
 
 constexpr std::size_t kNumbers = 19;
 using Numbers = std::array<double, kNumbers>;
@@ -89,8 +54,39 @@ constexpr Numbers NumbersOf(const Beacon& b) {
           b.toward_world.y};
 }
 
-constexpr Numbers kLowest = NumbersOf(kLeast);
-constexpr Numbers kHighest = NumbersOf(kMost);
+// Within these every number of a beacon is.
+constexpr Numbers kLowest = NumbersOf({
+    .wheels = {-kMaxWheel_rad_s, -kMaxWheel_rad_s},
+    .cruise_m_s = 0,
+    .world_from_body = {{-kMaxCoordinate_m, -kMaxCoordinate_m}, -kHeading_rad},
+    .covariance = {.xx_m2 = 0,
+                   .xy_m2 = -kMaxSigma_m * kMaxSigma_m,
+                   .yy_m2 = 0,
+                   .xh_m_rad = -kMaxSigma_m * kMaxSigma_rad,
+                   .yh_m_rad = -kMaxSigma_m * kMaxSigma_rad,
+                   .hh_rad2 = 0},
+    .body_radius_m = kMinLength_m,
+    .drive = {kMinLength_m, kMinLength_m},
+    .acceleration_m_s2 = kAboveZero,
+    .deceleration_m_s2 = kAboveZero,
+    .toward_world = {-kMaxCoordinate_m, -kMaxCoordinate_m},
+});
+constexpr Numbers kHighest = NumbersOf({
+    .wheels = {kMaxWheel_rad_s, kMaxWheel_rad_s},
+    .cruise_m_s = kMaxSpeed_m_s,
+    .world_from_body = {{kMaxCoordinate_m, kMaxCoordinate_m}, kHeading_rad},
+    .covariance = {.xx_m2 = kMaxSigma_m * kMaxSigma_m,
+                   .xy_m2 = kMaxSigma_m * kMaxSigma_m,
+                   .yy_m2 = kMaxSigma_m * kMaxSigma_m,
+                   .xh_m_rad = kMaxSigma_m * kMaxSigma_rad,
+                   .yh_m_rad = kMaxSigma_m * kMaxSigma_rad,
+                   .hh_rad2 = kMaxSigma_rad * kMaxSigma_rad},
+    .body_radius_m = kMaxLength_m,
+    .drive = {kMaxLength_m, kMaxLength_m},
+    .acceleration_m_s2 = kMaxRate_m_s2,
+    .deceleration_m_s2 = kMaxRate_m_s2,
+    .toward_world = {kMaxCoordinate_m, kMaxCoordinate_m},
+});
 
 constexpr std::array<const char*, kNumbers> kNames = {
     "left_rad_s",          "right_rad_s",         "cruise_m_s",

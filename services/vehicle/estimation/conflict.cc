@@ -8,9 +8,6 @@
 namespace giveway {
 namespace {
 
-// Parallel paths run along each other for ever; this is far enough to stand for it.
-constexpr double kFar_m = 1e6;
-
 constexpr Stretch kNowhere = {std::numeric_limits<double>::infinity(),
                               -std::numeric_limits<double>::infinity()};
 

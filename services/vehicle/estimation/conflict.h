@@ -9,6 +9,9 @@
 
 namespace giveway {
 
+// Further than any path of this world leads: stands for never, and for ever.
+inline constexpr double kFar_m = 1e6;
+
 // A stretch of a path, metres from its start. Negative lies behind the start. An empty one starts
 // at infinity and ends at minus infinity: also one that lies behind ends no later than at 0.
 struct Stretch {

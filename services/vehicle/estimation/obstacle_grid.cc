@@ -80,19 +80,17 @@ CellSpan CellSpanOf(Vec2 axis, double half_sine, double near_m, double far_m) {
 
 // The cell so many steps on, round the torus.
 std::uint32_t StepFrom(std::uint32_t cell, int steps) {
-  constexpr int kSide = ObstacleGrid::kSide;
-  return static_cast<std::uint32_t>((static_cast<int>(cell) + steps + kSide) % kSide);
+  return (cell + ObstacleGrid::kSide + static_cast<std::uint32_t>(steps)) % ObstacleGrid::kSide;
 }
 
 // Bits of the columns from `left` to `right` steps on.
 std::uint64_t ColumnsFrom(std::uint32_t cell, const CellSpan& bounds) {
-  constexpr std::uint32_t kSide = ObstacleGrid::kSide;
-  constexpr std::uint64_t kAll = (std::uint64_t{1} << kSide) - 1;
+  constexpr std::uint64_t kAll = (std::uint64_t{1} << ObstacleGrid::kSide) - 1;
   const auto count = static_cast<std::uint32_t>(bounds.right - bounds.left + 1);
-  if (count >= kSide) return kAll;
+  if (count >= ObstacleGrid::kSide) return kAll;
   const std::uint64_t run = (std::uint64_t{1} << count) - 1;
   const std::uint32_t first = StepFrom(cell, bounds.left);
-  return (run << first | run >> (kSide - first)) & kAll;
+  return (run << first | run >> (ObstacleGrid::kSide - first)) & kAll;
 }
 
 bool IsKnown(Vec2 point_body, std::span<const KnownBody> known) {

@@ -109,14 +109,13 @@ void Forget(const PoseFix& fix, const PoseFixModel& fitted, const FixTaker& take
 
 // A fix that fits may still be one that came off a wall: by chance, or because the pose is unsure
 // or wrong itself. With which probability it is right: right ones lie about the pose as a normal
-// distribution, wrong ones anywhere within the gate. The factors are the gate's area and width, in
-// deviations, times the density in the middle.
+// distribution, wrong ones anywhere within the gate. The factors, kGate / 2 and kOfWidth, are the
+// gate's area and width, in deviations, times the density in the middle.
 double ProbablyRight(const Innovation& innovation, double wrong_share, const Odometry& odometry) {
-  constexpr double kOfArea = kGate / 2;
   constexpr double kOfWidth = 2.62;  // 2 sqrt(kHeadingGate) / sqrt(2 pi)
   const double wrong = std::max(kSomeWrong, wrong_share);
   double right =
-      (1 - wrong) * kOfArea *
+      (1 - wrong) * (kGate / 2) *
       Exp(-Mahalanobis(innovation.off_world, odometry.Covariance(), innovation.position_m2) / 2);
   if (innovation.of_heading) right *= kOfWidth * Exp(-SquaredHeadingOff(innovation, odometry) / 2);
   return right / (right + wrong);

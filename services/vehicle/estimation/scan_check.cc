@@ -20,7 +20,6 @@ bool IsBetween(double x, double low, double high) { return x >= low && x <= high
 bool IsBearing(double x) { return Magnitude(x) <= kPi + 1e-9; }
 
 bool IsPlace(Vec2 point_world) {
-  constexpr double kMaxCoordinate_m = 100'000;
   return Magnitude(point_world.x) <= kMaxCoordinate_m &&
          Magnitude(point_world.y) <= kMaxCoordinate_m;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "services/vehicle/estimation/conflict.h"
+
 namespace giveway {
 namespace {
 
@@ -10,15 +12,14 @@ constexpr double kRoomToStand_m = 0.7;  // between two conflicts: a body and wha
 // A peer further from the crossing than this is not made to wait by a vehicle stopping there now.
 constexpr double kPeerNear_m = 3;
 constexpr double kOwnNear_m = 8;
-constexpr double kNever_m = 1e6;
 
 // The conflicts of a vehicle that concern it now.
 struct Crossings {
   std::array<const PeerView*, 64> of;  // the first `count`
   std::size_t count = 0;
   // No stretch of the own path starts before the one or ends after the other.
-  double first_begin_m = kNever_m;
-  double last_end_m = -kNever_m;
+  double first_begin_m = kFar_m;
+  double last_end_m = -kFar_m;
 
   std::span<const PeerView* const> All() const { return {of.data(), count}; }
 };
@@ -74,7 +75,7 @@ double QueueLength(double along_m, std::span<const PeerView> views, const OwnVie
 
 // Where a leader that intends to drive on may nevertheless stop: before the next crossing.
 double NextStop(double from_m, const Crossings& crossings) {
-  double next_m = kNever_m;
+  double next_m = kFar_m;
   for (const PeerView* view : crossings.All()) {
     const double begin_m = view->crossing->own.begin_m;
     if (!view->crossing->across || begin_m <= from_m) continue;
@@ -98,15 +99,15 @@ double LeaderStops(const RelatedPeer& leader, const Crossings& crossings, const 
 // round something.
 double StopsBehind(const RelatedPeer& view, std::span<const PeerView> views,
                    const Crossings& crossings, const OwnView& s) {
-  if (!view.fresh) return kNever_m;
-  if (!view.leads) return view.standing ? view.free_m : kNever_m;
+  if (!view.fresh) return kFar_m;
+  if (!view.leads) return view.standing ? view.free_m : kFar_m;
   return LeaderStops(view, crossings, s) - QueueLength(AlongOwnPath(view, s), views, s);
 }
 
 // Where the box starts that contains a point; huge if none does, or if the vehicle is already
 // inside. Parallel or opposing paths are no crossings.
 double BoxRound(double point_m, const PeerView& but, const Crossings& crossings) {
-  double begin_m = kNever_m;
+  double begin_m = kFar_m;
   for (const PeerView* view : crossings.All()) {
     const Conflict& crossing = *view->crossing;
     if (view == &but || !crossing.across || view->box_begin_m <= 0) continue;
@@ -125,7 +126,7 @@ std::optional<BlockedBox> NearestBlocked(std::span<const PeerView> views,
     const double stops_m = StopsBehind(view, views, crossings, s);
     if (stops_m > kOwnNear_m) continue;
     const double begin_m = BoxRound(stops_m, view, crossings);
-    if (begin_m >= (nearest ? nearest->begin_m : kNever_m)) continue;
+    if (begin_m >= (nearest ? nearest->begin_m : kFar_m)) continue;
     nearest = {begin_m, view.peer->id, view.peer->beacon.tick};
   }
   return nearest;

@@ -8,7 +8,6 @@
 namespace giveway {
 namespace {
 
-constexpr double kFar_m = 1e6;
 // From inside a claim: how far the exit path may lead inwards at first. It comes nearer by no more
 // than a thousandth of the distance, and a path square to it is not lost to rounding.
 constexpr double kAlong = 0.045;

@@ -9,8 +9,6 @@
 namespace giveway {
 namespace {
 
-constexpr double kAtTarget_m = 0.05;  // nearer to its target the direction to it says little
-
 // A disc that drives to a point.
 struct MovingDisc {
   Path path;

@@ -11,8 +11,6 @@
 namespace giveway {
 namespace {
 
-constexpr double kFarAway_m = 1e6;
-
 // A peer that will not move by itself stands where it is: an obstacle to steer round, not a path.
 bool StaysPut(const Beacon& beacon) {
   if (MutantActive(Mutant::kArrivedClaimsWay)) return false;
@@ -99,18 +97,16 @@ bool StaysAway(Vec2 from_world, Vec2 to_world, double reach_m, const Path& own) 
   return Dot(own.direction_world, from) < -reach_m && Dot(own.direction_world, to) < -reach_m;
 }
 
-// The direction to its target says little about a peer that is nearly there.
-constexpr double kThere_m = 0.05;
 // Out of reach by this margin holds however it is rounded, and in whatever direction the peer turns
 // at its target.
-constexpr double kWellAway_m = 2 * kThere_m + 0.001;
+constexpr double kWellAway_m = 2 * kAtTarget_m + 0.001;
 
 // Where the paths of both vehicles to their next targets cross, if neither follows the other.
 void FindCrossing(RelatedPeer* view, const OwnView& s) {
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   if (!view->path_is_near) return;
   const double reach_m = Reach(view->peer->beacon, view->sigma_m, s);
-  const double path_m = cooperative ? view->path_m : kFarAway_m;
+  const double path_m = cooperative ? view->path_m : kFar_m;
   const Path peer_path{view->position_world,
                        cooperative ? view->path_direction_world : view->forward_world};
   const auto conflict = FindConflict(s.path, peer_path, reach_m);
@@ -173,7 +169,7 @@ void Measure(CarriedPeer* measured, const OwnView& s) {
   if (!view.path_is_near) return;
   view.path_m = Norm(view.path_world);
   view.path_direction_world =
-      view.path_m > kThere_m ? (1 / view.path_m) * view.path_world : view.forward_world;
+      view.path_m > kAtTarget_m ? (1 / view.path_m) * view.path_world : view.forward_world;
 }
 
 }  // namespace
@@ -188,10 +184,10 @@ double InterestRadius(const RobotModel& profile) {
 // have done since is unknown up to the end of the tick that this decision moves.
 double FreeAlong(const CarriedPeer& view, Vec2 forward_world, const OwnView& s) {
   const Beacon& beacon = view.peer->beacon;
-  if (IsGone(*view.peer)) return kFarAway_m;
+  if (IsGone(*view.peer)) return kFar_m;
   const double unknown_s = UnknownSeconds(beacon, s);
   if (unknown_s > kClaimLasts_s || IsClaimFar(beacon, view.speed_m_s, view.sigma_m, unknown_s, s))
-    return kFarAway_m;
+    return kFar_m;
   const Claim claim =
       ClaimOf(beacon, {view.peer->stated_heading.forward_world, view.speed_m_s, view.turn_rad_s},
               unknown_s, s.reaction_s);

@@ -238,6 +238,8 @@ struct Situation {
 
 // Below this a vehicle stands still, as the verdict defines it.
 inline constexpr double kStandingSpeed_m_s = 0.01;
+// Nearer to its target than this, the direction to it says little.
+inline constexpr double kAtTarget_m = 0.05;
 // Turning no faster, it drives straight on or stands.
 inline constexpr double kTurning_rad_s = 0.02;
 // The distance to a goal that there is none of.
