@@ -1,8 +1,6 @@
 #include "services/vehicle/vehicle.h"
 
 #include <algorithm>
-#include <new>
-#include <type_traits>
 
 #include "services/types/check.h"
 #include "services/types/math/math.h"

@@ -100,6 +100,20 @@ std::optional<Proposal> Arrived(const Situation& s) {
   return DeadStop(Rule::kArrived);
 }
 
+// A vehicle's own doubt about where it is. Others keep two standard deviations from where it says
+// it is: beyond its limit it promises no place any more, stands, and says so.
+std::optional<Proposal> Lost(const Situation& s) {
+  if (!s.own.lost) return std::nullopt;
+  return Proposal{.max_speed_m_s = 0, .may_turn = false, .rule = Rule::kLost};
+}
+
+std::optional<Proposal> Unsure(const Situation& s) {
+  if (s.own.known_share >= 1) return std::nullopt;
+  return Proposal{.max_speed_m_s = s.own.known_share * s.own.options.cruise_m_s,
+                  .may_turn = true,
+                  .rule = Rule::kUnsure};
+}
+
 std::optional<Proposal> GiveWay(const Situation& s) {
   return HoldFor(Rule::kGiveWay, s,
                  [](const PeerView& view) { return !view.lost && view.has_priority; });

@@ -43,7 +43,7 @@ std::optional<Proposal> KeepBoxClear(const Situation& s);
 // the vehicle stops before its line.
 std::optional<Proposal> Signal(const Situation& s);
 
-// What radar and lidar ask for (objects.h).
+// What radar and lidar ask for (objects_ahead.h).
 std::optional<Proposal> Object(const Situation& s);
 
 // What the own ultrasonics ask for by themselves.

@@ -1,7 +1,6 @@
 #include "services/vehicle/estimation/peer_table.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "services/types/math/math.h"
 #include "services/vehicle/estimation/beacon_check.h"

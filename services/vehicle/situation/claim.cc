@@ -82,10 +82,9 @@ double TurnRollsOn(double turn_rad_s, double axle_m, double deceleration_m_s2) {
   return beside_m_s * beside_m_s / (2 * deceleration_m_s2);
 }
 
-double ClaimLength(const Beacon& beacon, double speed_m_s, double unknown_s, double reaction_s) {
-  const double pace = Magnitude(speed_m_s);
-  const double fastest = MostSpeed(beacon, pace, unknown_s);
-  const double gained = fastest - pace;
+double ClaimLength(const Beacon& beacon, double pace_m_s, double unknown_s, double reaction_s) {
+  const double fastest = MostSpeed(beacon, pace_m_s, unknown_s);
+  const double gained = fastest - pace_m_s;
   return fastest * unknown_s - gained * gained / (2 * beacon.acceleration_m_s2) +
          StoppingDistance(fastest, reaction_s, beacon.deceleration_m_s2);
 }
@@ -95,7 +94,7 @@ bool IsClaimShort(const Beacon& beacon, double speed_m_s, double reaction_s, dou
   const double most = std::max(kSpeedSlack * beacon.cruise_m_s, pace);
   const double rolls_on_m =
       TurnRollsOn(kTurnWhileDriving_rad_s, beacon.drive.axle_m, beacon.deceleration_m_s2);
-  const double braking_m = length_m - most * (1 + reaction_s) - rolls_on_m;
+  const double braking_m = length_m - most * (kClaimLasts_s + reaction_s) - rolls_on_m;
   return most * most < 2 * beacon.deceleration_m_s2 * braking_m;
 }
 

@@ -28,7 +28,8 @@ struct Claim {
 };
 
 // No vehicle turns faster than this while it drives, whatever its wheels could do: a promise that
-// every claim stands on, as steering.cc keeps it.
+// every claim stands on, as steering.cc keeps it. Not kept by the lecture's behaviours where they
+// set the wheels themselves, avoiding or as printed: their claims may be too narrow.
 inline constexpr double kTurnWhileDriving_rad_s = 0.87;
 
 // The heading of a beacon's sender, a unit vector, and how fast it says it drives forward and
@@ -51,12 +52,12 @@ double SwingOf(double turn_rad_s, double steady_s, double speed_m_s, double dece
 // rolls, and the centre slows down half as fast. (turn * axle / 2)^2 / (2 * deceleration).
 double TurnRollsOn(double turn_rad_s, double axle_m, double deceleration_m_s2);
 
-// How far the sender of `beacon`, driving straight on at speed_m_s, may come before it stands: it
-// speeds up until it is at its fastest, keeps that up until unknown_s and its reaction are over,
-// and brakes.
-double ClaimLength(const Beacon& beacon, double speed_m_s, double unknown_s, double reaction_s);
+// How far the sender of `beacon`, driving straight on at pace_m_s, forward or back, may come before
+// it stands: it speeds up until it is at its fastest, keeps that up until unknown_s and its
+// reaction are over, and brakes.
+double ClaimLength(const Beacon& beacon, double pace_m_s, double unknown_s, double reaction_s);
 
-// True if the length of its claim is surely no more than length_m, however much of a second is
+// True if the length of its claim is surely no more than length_m, however much of kClaimLasts_s is
 // unknown. Takes no division.
 bool IsClaimShort(const Beacon& beacon, double speed_m_s, double reaction_s, double length_m);
 

@@ -44,7 +44,7 @@ KnownBodies KnownNear(std::span<const PeerView> peers, const OwnView& s) {
 
 HeardCone HeardBy(std::size_t sensor, bool explained, const OwnView& s) {
   const SensorView& view = s.ranges[sensor];
-  const double before_s = view.kind == Echo::kEcho && view.missed ? 0 : view.echo_before_s;
+  const double before_s = view.missed ? 0 : view.echo_before_s;
   const double age_s = Seconds(TicksBetween(view.tick, s.tick) * s.options.tick_period) + before_s;
   const bool echo = view.kind == Echo::kEcho && !view.missed;
   Vec2 apex = s.options.profile.sonar[sensor].position_body;

@@ -58,10 +58,6 @@ bool IsKnownPeer(const SeenObjects& seen, Vec2 point_world, const Situation& s) 
   return on_shell && LooksLikeVehicle(seen.camera, point_world, s.own);
 }
 
-void Keep(double free_m, Tick tick, std::optional<ObjectAhead>* nearest) {
-  if (!*nearest || free_m < (*nearest)->free_m) *nearest = ObjectAhead{free_m, tick};
-}
-
 // How far straight on until the own shell touches the point; empty if it passes. A point already
 // within the margin is judged without one: along a wall the vehicle may continue.
 std::optional<double> FreeBefore(Vec2 point_body, double body_radius_m) {
@@ -84,7 +80,7 @@ void Consider(const SeenObjects& seen, const HeldScan<Scan>& held, double range_
   const auto free_m = FreeBefore(then, s.own.options.profile.body_radius_m);
   if (!free_m || (*nearest && (*nearest)->free_m <= *free_m)) return;
   const Vec2 now_world = ToWorld(held.world_from_body, At(range_m, bearing_rad));
-  if (!IsKnownPeer(seen, now_world, s)) Keep(*free_m, held.scan.tick, nearest);
+  if (!IsKnownPeer(seen, now_world, s)) *nearest = ObjectAhead{*free_m, held.scan.tick};
 }
 
 }  // namespace
