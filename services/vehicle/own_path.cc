@@ -12,10 +12,12 @@
 namespace giveway {
 namespace {
 
-// After kNoProgress_s of driving without progress, a vehicle plans a detour; after
-// kProgressTimeout_s it does not stay in line any more.
+// So near it passes a waypoint that it cannot reach; and no nearer it must come to one in a
+// one-lane section.
 constexpr double kPassedAtDistance_m = 1.2;
 constexpr double kLeastPassingRadius_m = 0.1;
+// After kNoProgress_s of driving without progress, a vehicle plans a detour; after
+// kProgressTimeout_s it does not stay in line any more.
 constexpr double kNoProgress_s = 6;
 constexpr double kProgressTimeout_s = 15;
 constexpr double kProgress_m = 0.1;

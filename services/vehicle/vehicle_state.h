@@ -1,11 +1,19 @@
 // Everything a brain remembers from one step to the next, by what writes it. Trivially copyable: a
 // snapshot is a copy. What one step makes of it is a Situation (situation/situation.h).
 //
-//   world     EnterWorld, TakeScan: which it is in     progress   Detour: whether it gets nearer
-//   motion    TakeScan, TakeFix: its own pose          waiting    KeepOrder: its place in the order
-//   sensed    TakeScan: its own sensors                movers     DetectMovers: unexplained ones
-//   heard     TakePeers: peers and lights              last       Remember: what it decided
-//   route     PassWaypoints: how far along it is       published  its last beacon
+//   world      which it is in: TakeRoster, TakeScan
+//   motion     its own pose: TakeScan, TakeFix, and AssessOwnPose whether it is lost
+//   sensed     its own sensors: TakeScan, TakeSignalsAndObjects, RememberEchoes, JudgeSonar
+//   heard      peers and lights: TakePeers, TakeSignalsAndObjects, and AssessSurroundings what it
+//              has with each peer
+//   route      how far along it is: UpdatePath
+//   progress   whether it gets nearer: UpdatePath, Detour, Remember
+//   waiting    its place in the order: KeepOrder
+//   movers     unexplained ones: NoteTurning, DetectMovers
+//   last       what it decided: Remember
+//   published  its last beacon: MakeBeacon
+//   counters   what was refused or distrusted: whoever refuses or distrusts
+// EnterWorld, and a roster or handover that says how far its task was, set back what is of a place.
 #pragma once
 
 #include <cstdint>
