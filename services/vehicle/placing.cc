@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "services/types/math/math.h"
 #include "services/vehicle/estimation/beacon_check.h"
 #include "services/vehicle/estimation/injected_mutants.h"
 #include "services/vehicle/situation/situation.h"
@@ -82,8 +83,9 @@ bool TakeOver(const Handover& handover, const VehicleOptions& options, VehicleSt
 void TakeRoster(const RosterEntry& entry, const VehicleOptions& options, VehicleState* taking) {
   VehicleState& state = *taking;
   const Pose& pose = entry.start_world;
+  // As a handover must be, for it becomes the own pose as well.
   const bool sound = std::isfinite(pose.position_world.x) && std::isfinite(pose.position_world.y) &&
-                     std::isfinite(pose.heading_rad) && std::isfinite(entry.counted.left_rad) &&
+                     Magnitude(pose.heading_rad) <= kPi && std::isfinite(entry.counted.left_rad) &&
                      std::isfinite(entry.counted.right_rad);
   if (!entry.accepted || entry.epoch == kNoEpoch || entry.epoch == state.world.placed_in || !sound)
     return;

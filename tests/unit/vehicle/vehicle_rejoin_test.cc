@@ -74,6 +74,20 @@ TEST(VehicleInARestartedWorld, ARefusalOrAPoseThatIsNoneMovesNothing) {
   EXPECT_EQ(brain.State().world.epoch, kNoEpoch);
 }
 
+// Its beacons would be refused by every peer, and it would find no path by such a heading.
+TEST(VehicleInARestartedWorld, AHeadingOfMoreThanATurnMovesNothing) {
+  for (const double heading_rad : {3.15, -3.15, 1e9}) {
+    Vehicle brain(test::DefaultOptions(), 42);
+    brain.Step({.now = std::chrono::milliseconds(50),
+                .roster = Placed(WorldEpoch{8}, {{1, 1}, heading_rad})});
+    EXPECT_EQ(brain.State().world.epoch, kNoEpoch) << heading_rad;
+  }
+  Vehicle brain(test::DefaultOptions(), 42);
+  brain.Step(
+      {.now = std::chrono::milliseconds(50), .roster = Placed(WorldEpoch{8}, {{1, 1}, kPi})});
+  EXPECT_EQ(brain.State().world.epoch, WorldEpoch{8});
+}
+
 TEST(VehicleInARestartedWorld, OnAnotherPlaceItDrivesByOtherOptionsAsTheSameVehicle) {
   VehicleOptions options = test::DefaultOptions();
   Vehicle brain(options, 42);
