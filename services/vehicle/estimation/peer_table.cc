@@ -120,7 +120,9 @@ BeaconRefusal PeerTable::Take(const ReceivedBeacon& received, const Self& self,
   if (!heard) {
     ++counters->not_heard;
     Peer* peer = Find(beacon.vehicle);
-    if (peer != nullptr && peer->writer == received.writer) {
+    const bool newer = peer != nullptr && peer->writer == received.writer &&
+                       peer->boot_epoch == beacon.boot_epoch && beacon.seq > peer->last_seq;
+    if (newer) {
       peer->out_of_reach = true;
       peer->waiting_count = 0;  // all older than this one
       peer->spoke = received.received;

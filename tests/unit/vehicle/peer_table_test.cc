@@ -196,6 +196,23 @@ TEST_F(PeerTableTest, OneThatLeavesWhileABeaconWaitsIsNoLossEither) {
   EXPECT_FALSE(IsLost(*table_->Find(VehicleId{2}), Fresh(2, milliseconds(1500))));
 }
 
+// A radio that holds a beacon back says nothing new by it, wherever it is from.
+TEST_F(PeerTableTest, AnOldBeaconFromBeyondTheRadiusChangesNothing) {
+  const Pose far{.position_world = {5.1, 0}};
+  Hear(2, 97, milliseconds(0));
+  Hear(2, 99, milliseconds(100));
+  Take(Received(BeaconOf(2, 98, far), milliseconds(120)));
+  Beacon of_other_life = BeaconOf(2, 120, far);
+  of_other_life.boot_epoch = 7;
+  Take(Received(of_other_life, milliseconds(120)));
+  EXPECT_EQ(counters_.not_heard, 2U);
+  EXPECT_FALSE(table_->Find(VehicleId{2})->out_of_reach);
+  EXPECT_TRUE(Fresh(2, milliseconds(120)));
+  EXPECT_EQ(table_->Find(VehicleId{2})->last_seq, 99U);
+  Hear(2, 99, milliseconds(130));
+  EXPECT_EQ(counters_.rejected_replayed, 1U);
+}
+
 // Regression: every start-up counted a refused beacon or two, though no sender had done anything
 // wrong.
 TEST_F(PeerTableTest, BeforeTheWorldIsHeardNobodyIsHeardAndNobodyIsRefused) {
