@@ -116,7 +116,7 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
   state.motion.wheels = scan.wheels;
   change_ = ChangeOf(state.sensed.ranges, scan, options_, cones_);
   if (HasImperfectSonar(options_)) {
-    const Twist twist = TwistFromWheels(profile.drive, scan.wheels);
+    const Twist twist = TwistFromWheels(profile.drive, gone.wheels);
     const double turned_rad = twist.turn_rad_s * dt_s;
     const OwnDisplacement moved{twist.forward_m_s * dt_s,
                                 turned_rad < 0 ? -turned_rad : turned_rad};

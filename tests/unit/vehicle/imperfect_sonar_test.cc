@@ -178,6 +178,25 @@ TEST(NoisySonar, AWallDroveUpToDoesNotMoveByItself) {
   }
 }
 
+// It rolled on for four ticks that it did not see, and stood for six: by its encoders 0.08 m in
+// half a second.
+TEST(NoisySonar, WhatItDroveInLostTicksIsByItsEncoders) {
+  BrainBench bench(Noisy());
+  RangeScan scan = ClearScan(0);
+  scan.wheels = {4, 4};
+  test::SetEcho(&scan, 3, 2.0);
+  bench.Step(scan);
+  for (int i = 0; i < 4; ++i) bench.StepBlind();
+  bench.RollOn({0, 0});
+  for (int i = 0; i < 5; ++i) bench.StepBlind();
+  scan.wheels = {};
+  test::SetEcho(&scan, 3, 1.922);
+  bench.Step(scan);
+  const SensorView& view = bench.Brain().State().sensed.ranges[3];
+  EXPECT_GT(view.closing_m_s, 0);
+  EXPECT_NEAR(view.own.forward_m_s, view.closing_m_s, 1e-9);
+}
+
 TEST(NoisySonar, WhatMovesByItselfIsStillHeard) {
   for (const VehicleOptions& options : {Noisy(), Slow()}) {
     Random random(13);
