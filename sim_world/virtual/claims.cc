@@ -22,8 +22,10 @@ bool Holds(const Claim& claim, double body_radius_m, double slack_m, Vec2 centre
 }  // namespace
 
 Claims::Claims(const Scenario& scenario) : dt_s_(Seconds(scenario.tick_period)) {
-  // The least that is judged is a beacon that was just received, however long a tick.
-  oldest_ticks_ = std::max<std::uint32_t>(2, static_cast<std::uint32_t>(kClaimLasts_s / dt_s_));
+  for (const VehicleOptions& options : scenario.vehicles) {
+    const auto lasts_ticks = static_cast<std::uint32_t>(ClaimLasts(options) / scenario.tick_period);
+    oldest_ticks_ = std::max(oldest_ticks_, lasts_ticks);
+  }
   for (const VehicleOptions& options : scenario.vehicles) {
     const std::uint32_t fresh = TicksCovering(options.beacon_age_limit, scenario.tick_period);
     fresh_ticks_ = std::clamp<std::uint32_t>(fresh + 1, fresh_ticks_, oldest_ticks_);

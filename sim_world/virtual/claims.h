@@ -51,8 +51,8 @@ class Claims {
   std::uint32_t Step(std::uint32_t ago) const;
 
   double dt_s_;
-  std::uint32_t oldest_ticks_;     // no vehicle keeps clear of an older claim
-  std::uint32_t fresh_ticks_ = 2;  // every claim up to this age is judged
+  std::uint32_t oldest_ticks_ = 2;  // no vehicle keeps clear of an older claim
+  std::uint32_t fresh_ticks_ = 2;   // every claim up to this age is judged
   std::vector<Track> tracks_;
   std::vector<std::uint32_t> left_;
 };

@@ -23,6 +23,7 @@ class Onlooker {
   Onlooker(const Onlooker&) = delete;  // its view refers to the others
 
   const OwnView& Own() const { return own_; }
+  void At(Tick tick) { own_.tick = tick; }
 
   void Knows(const OneLane& lane) {
     options_.one_lanes.push_back(lane);

@@ -89,12 +89,13 @@ double ClaimLength(const Beacon& beacon, double pace_m_s, double unknown_s, doub
          StoppingDistance(fastest, reaction_s, beacon.deceleration_m_s2);
 }
 
-bool IsClaimShort(const Beacon& beacon, double speed_m_s, double reaction_s, double length_m) {
+bool IsClaimShort(const Beacon& beacon, double speed_m_s, double lasts_s, double reaction_s,
+                  double length_m) {
   const double pace = Magnitude(speed_m_s);
   const double most = std::max(kSpeedSlack * beacon.cruise_m_s, pace);
   const double rolls_on_m =
       TurnRollsOn(kTurnWhileDriving_rad_s, beacon.drive.axle_m, beacon.deceleration_m_s2);
-  const double braking_m = length_m - most * (kClaimLasts_s + reaction_s) - rolls_on_m;
+  const double braking_m = length_m - most * (lasts_s + reaction_s) - rolls_on_m;
   return most * most < 2 * beacon.deceleration_m_s2 * braking_m;
 }
 

@@ -9,7 +9,10 @@
 // rate until it stands: its stopping path is an arc, and the longer it brakes the more of one.
 #pragma once
 
+#include <algorithm>
+
 #include "services/types/beacon.h"
+#include "services/types/vehicle_options.h"
 #include "services/vehicle/estimation/conflict.h"
 
 namespace giveway {
@@ -17,8 +20,13 @@ namespace giveway {
 // What is not known of a pose is allowed for by so many standard deviations.
 inline constexpr double kSigmas = 2;
 
-// After a longer silence nothing can be said of a peer; the ultrasonics and PeerLost take over.
-inline constexpr double kClaimLasts_s = 1.0;
+// For how long a vehicle keeps clear of what a beacon claims. After a longer silence nothing can
+// be said of a peer; the ultrasonics and PeerLost take over. Never shorter than a beacon counts as
+// fresh: the age of a beacon starts a tick after it, and a decision moves the tick after its own.
+inline Nanoseconds ClaimLasts(const VehicleOptions& options) {
+  constexpr Nanoseconds kLeast{1'000'000'000};
+  return std::max(kLeast, options.beacon_age_limit + 2 * options.tick_period);
+}
 
 // A stadium: all points within radius_m of the first length_m of the axis; a disc without length.
 struct Claim {
@@ -57,9 +65,10 @@ double TurnRollsOn(double turn_rad_s, double axle_m, double deceleration_m_s2);
 // reaction are over, and brakes.
 double ClaimLength(const Beacon& beacon, double pace_m_s, double unknown_s, double reaction_s);
 
-// True if the length of its claim is surely no more than length_m, however much of kClaimLasts_s is
+// True if the length of its claim is surely no more than length_m, however much of lasts_s is
 // unknown. Takes no division.
-bool IsClaimShort(const Beacon& beacon, double speed_m_s, double reaction_s, double length_m);
+bool IsClaimShort(const Beacon& beacon, double speed_m_s, double lasts_s, double reaction_s,
+                  double length_m);
 
 // What the sender of `beacon` may cover from its pose until it stands, if it was free to do as it
 // liked for `unknown_s` after the beacon and needs `reaction_s` before it brakes.

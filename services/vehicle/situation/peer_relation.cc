@@ -186,8 +186,10 @@ double FreeAlong(const CarriedPeer& view, Vec2 forward_world, const OwnView& s) 
   const Beacon& beacon = view.peer->beacon;
   if (IsGone(*view.peer)) return kFar_m;
   const double unknown_s = UnknownSeconds(beacon, s);
-  if (unknown_s > kClaimLasts_s || IsClaimFar(beacon, view.speed_m_s, view.sigma_m, unknown_s, s))
+  if (unknown_s > Seconds(ClaimLasts(s.options)) ||
+      IsClaimFar(beacon, view.speed_m_s, view.sigma_m, unknown_s, s)) {
     return kFar_m;
+  }
   const Claim claim =
       ClaimOf(beacon, {view.peer->stated_heading.forward_world, view.speed_m_s, view.turn_rad_s},
               unknown_s, s.reaction_s);
@@ -208,7 +210,7 @@ bool IsRelevant(const Peer& peer, bool fresh, const OwnView& s) {
   const double reach_m = Reach(beacon, sigma_m, s) + moved_m + kWellAway_m;
   if (!StaysAway(from_world, beacon.toward_world, reach_m, s.path)) return true;
   const double short_m = (near_m - s.slows_m - KeptFrom(beacon, sigma_m, s)) / 2;
-  return !IsClaimShort(beacon, speed_m_s, s.reaction_s, short_m) &&
+  return !IsClaimShort(beacon, speed_m_s, Seconds(ClaimLasts(s.options)), s.reaction_s, short_m) &&
          !IsClaimFar(beacon, speed_m_s, sigma_m, UnknownSeconds(beacon, s), s);
 }
 

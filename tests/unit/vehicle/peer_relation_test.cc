@@ -49,6 +49,34 @@ TEST(RelatePeer, OneThatIsLostKeepsItsWay) {
   EXPECT_TRUE(view.crossing);
 }
 
+// With ticks as long as they may be, the next beacon is never younger than two of them.
+TEST(FreeAlong, KeepsClearOfAFreshBeaconHoweverLongATickIs) {
+  VehicleOptions options = test::DefaultOptions();
+  options.tick_period = std::chrono::milliseconds(600);
+  options.beacon_age_limit = std::chrono::milliseconds(1800);
+  Peer peer = test::PeerAt({{1, 0}, kPi});
+  EXPECT_LT(test::Onlooker(options).RelatePeer(&peer).free_m, 1);
+}
+
+TEST(FreeAlong, KeepsClearOfABeaconAsLongAsItIsFresh) {
+  VehicleOptions options = test::DefaultOptions();
+  options.beacon_age_limit = std::chrono::milliseconds(2000);
+  for (const std::uint32_t tick : {21U, 42U}) {  // a second, and as old as a fresh one can be
+    Peer peer = test::PeerAt({{1, 0}, kPi});
+    test::Onlooker onlooker(options);
+    onlooker.At(Tick{tick});
+    const PeerView view = onlooker.RelatePeer(&peer);
+    EXPECT_TRUE(view.fresh) << tick;
+    EXPECT_LT(view.free_m, 1) << tick;
+  }
+  Peer peer = test::PeerAt({{1, 0}, kPi});
+  test::Onlooker onlooker;  // by default fresh for 200 ms, and kept clear of for a second
+  onlooker.At(Tick{20});
+  EXPECT_LT(onlooker.RelatePeer(&peer).free_m, 1);
+  onlooker.At(Tick{21});
+  EXPECT_GT(onlooker.RelatePeer(&peer).free_m, 1000);
+}
+
 // A peer at its destination has no path left: the direction of what remains means nothing.
 TEST(CarryForward, TakesTheStraightWayToWhereThePeerDrivesUntilItIsThere) {
   Peer peer = test::PeerAt({{3, -0.3}, 0});

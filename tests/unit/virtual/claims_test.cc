@@ -82,6 +82,19 @@ TEST_F(ClaimsTest, AnOldClaimHoldsAsLongAsPeersKeepClearOfIt) {
   EXPECT_EQ(left, 1U);
 }
 
+// Peers that take a beacon for fresh for two seconds keep clear of its claim for as long.
+TEST_F(ClaimsTest, AnOldClaimIsJudgedWhileItsBeaconMayBeFresh) {
+  scenario_.vehicles[0].beacon_age_limit = std::chrono::seconds(2);
+  Claims claims(scenario_);
+  std::size_t left = 0;
+  for (int i = 0; i < 15; ++i) left += Drive(0.3, 0.015, &claims);
+  says_ = false;
+  for (int i = 0; i < 25; ++i) left += Drive(0.3, 0.1, &claims);
+  says_ = true;
+  EXPECT_EQ(left, 0U) << "nothing is judged of one that is not heard";
+  EXPECT_EQ(Drive(0.3, 0.1, &claims), 1U);
+}
+
 TEST_F(ClaimsTest, NothingIsJudgedOfOneThatIsNotHeard) {
   says_ = false;
   Claims claims(scenario_);
