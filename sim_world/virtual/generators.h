@@ -20,13 +20,18 @@ struct Generator {
   std::string_view description;
   double most_radius_m =
       0.25;  // bodies that get through everywhere, and past each other where two lanes are
-  double through_m = 2;  // the longest of its places in which only one can be at a time
+  // The longest of its places in which only one can be at a time: so long, and in a passage as much
+  // more as the first of its walls is long, which is drawn.
+  double through_m = 2;
   Scenario (*make)(const Size& size) = nullptr;
+  bool passage = false;
 };
 
 std::span<const Generator> Generators();
 // Null if there is none of that name.
 const Generator* FindGenerator(std::string_view name);
+// How long the place is in which only one can be at a time, of a scenario that the generator made.
+double ThroughMetres(const Generator& generator, const Scenario& scenario);
 
 // Four roads meet; every vehicle drives straight across.
 Scenario MakeCrossing(const Size& size);

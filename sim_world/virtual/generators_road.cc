@@ -14,7 +14,6 @@ namespace {
 constexpr double kQueue_m = 2.5;      // between vehicles of one lane
 constexpr double kMoved_m = 0.2;      // a start is moved along its lane by up to this
 constexpr double kTwoBodies_m = 1.5;  // two Pioneers and half a metre
-constexpr double kMouths_m = 3;       // before and behind a passage, where only one is either
 
 Vec2 Direction(double angle_rad) { return {Cos(angle_rad), Sin(angle_rad)}; }
 Vec2 Right(Vec2 along) { return -1 * Left(along); }

@@ -62,6 +62,9 @@ class Layout {
 inline constexpr double kBay_m = 2.1;     // along the lane
 inline constexpr double kBeside_m = 1.6;  // from the lane's middle
 
+// Before and behind a passage, where only one is either, together.
+inline constexpr double kMouths_m = 3;
+
 // A random order of 0, 1, … count - 1.
 std::vector<std::uint32_t> Shuffled(std::uint32_t count, Random* dice);
 

@@ -137,7 +137,7 @@ InvariantLimits LimitsFor(const Scenario& scenario, const VirtualPlan& plan) {
   // A file states what it expects; a generator knows which vehicles can arrive, and in what time.
   if (const Generator* generator = FindGenerator(scenario.name)) {
     limits.one_of = WhoCanArrive(scenario).one_of;
-    limits.due = DueTimes(scenario, generator->through_m);
+    limits.due = DueTimes(scenario, ThroughMetres(*generator, scenario));
   }
   limits.required |= InvariantSet(plan.also_required);
   return limits;

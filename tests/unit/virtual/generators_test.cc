@@ -12,6 +12,7 @@
 #include "services/types/math/math.h"
 #include "sim_world/geometry/geometry.h"
 #include "sim_world/virtual/arriving.h"
+#include "sim_world/virtual/due_times.h"
 #include "sim_world/virtual/virtual_run.h"
 
 namespace giveway::sim {
@@ -130,6 +131,15 @@ TEST_P(EveryGenerator, GivesTheSlowestTimeToSpare) {
   OnManySeeds([](const Scenario& scenario, const std::string& which) {
     for (const VehicleOptions& vehicle : scenario.vehicles) {
       ASSERT_GE(scenario.duration_s, FreeFlowSeconds(vehicle) + 60) << which;
+    }
+  });
+}
+
+// Else `delay` could not break before `arrival` does.
+TEST_P(EveryGenerator, IsOverAfterEveryoneWasDue) {
+  OnManySeeds([](const Scenario& scenario, const std::string& which) {
+    for (const DueTime& due : DueTimes(scenario, ThroughMetres(GetParam(), scenario))) {
+      ASSERT_LT(due.at_s, scenario.duration_s) << which << ": " << Number(due.vehicle);
     }
   });
 }
