@@ -84,6 +84,15 @@ void NoteArrival(const OwnCourse& course, const OwnPose& pose, const VehicleOpti
   Restart(progress);
 }
 
+// The waypoint of that number, or the goal behind the last; empty behind that.
+std::optional<Vec2> PointOfRoute(std::uint32_t number, const VehicleOptions& options) {
+  const Route& route = options.route;
+  if (number < route.count) return route.waypoints_world[number];
+  if (route.loop && route.count > 0) return route.waypoints_world[number % route.count];
+  if (number == route.count && options.goal.set) return options.goal.at_world;
+  return std::nullopt;
+}
+
 }  // namespace
 
 OwnCourse UpdatePath(const OwnPose& pose, const VehicleOptions& options, RouteProgress* route,
@@ -107,6 +116,29 @@ OwnCourse UpdatePath(const OwnPose& pose, const VehicleOptions& options, RoutePr
   course.arrived = route->arrived;
   course.lanes = FindLanesAhead(pose, course, options);
   return course;
+}
+
+LegsBeyond FindLegsBeyond(const OwnCourse& course, std::uint32_t waypoint,
+                          const VehicleOptions& options, double reach_m) {
+  constexpr double kSameWay = 0.7071067811865476;  // the cosine of 45 degrees
+  LegsBeyond legs;
+  if (course.stops_there || waypoint >= options.route.count) return legs;
+  Vec2 at = options.route.waypoints_world[waypoint];
+  Vec2 direction_world = course.path.direction_world;
+  double from_m = course.distance_to_goal_m;
+  const double end_m = from_m + reach_m;
+  while (legs.count < legs.of.size() && from_m < end_m) {
+    const std::optional<Vec2> next = PointOfRoute(++waypoint, options);
+    if (!next || *next == at) break;
+    const double length_m = Norm(*next - at);
+    const Path path{at, (1 / length_m) * (*next - at)};
+    if (Dot(path.direction_world, direction_world) < kSameWay) break;
+    legs.of[legs.count++] = {path, from_m, std::min(length_m, end_m - from_m)};
+    at = *next;
+    direction_world = path.direction_world;
+    from_m += length_m;
+  }
+  return legs;
 }
 
 namespace {

@@ -209,11 +209,18 @@ Lights Vehicle::AssessSignals(const Moment& moment, const OwnMotion& motion,
   const RobotModel& profile = options_.profile;
   const double stopping_m = StoppingDistance(std::max(0.0, motion.speed_m_s), motion.reaction_s,
                                              profile.deceleration_m_s2);
+  // Further past a waypoint it can stop in time once it has passed it. What it turns there, and the
+  // margin to a line, take some of that.
+  constexpr double kInHandAtWaypoint_m = 0.5;
+  const LegsBeyond beyond =
+      FindLegsBeyond(course, state_->route.waypoint, options_,
+                     motion.slows_m + profile.body_radius_m + kInHandAtWaypoint_m);
   return {.stop_line =
               state_->heard.signals.MustStopAt({.path = course.path,
                                                 .distance_to_goal_m = course.distance_to_goal_m,
                                                 .body_radius_m = profile.body_radius_m,
-                                                .stopping_m = stopping_m},
+                                                .stopping_m = stopping_m,
+                                                .beyond = beyond.All()},
                                                moment.now),
           .at_signal = state_->last.decision.rule == Rule::kSignal};
 }

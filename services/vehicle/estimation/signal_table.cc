@@ -13,21 +13,35 @@ constexpr double kCosSameWay = 0.7071067811865476;  // 45 degrees
 
 bool IsFresh(SteadyTime heard, SteadyTime now) { return now - heard <= kSignalAgeLimit; }
 
-// Metres along the path until the shell is over the stop line; empty if the path does not cross it,
-// crosses it in the opposite direction, or the shell is over it already.
-std::optional<double> DistanceToLine(const SignalState& state, const Approach& approach) {
-  const Vec2 along = approach.path.direction_world;
+// Metres along the path until it crosses the stop line, negative behind its start; empty if it does
+// not cross it, or in the opposite direction.
+std::optional<double> CrossingOf(const SignalState& state, const Path& path) {
+  const Vec2 along = path.direction_world;
   const Vec2 travel = {Cos(state.travel_rad), Sin(state.travel_rad)};
   if (Dot(along, travel) < kCosSameWay) return std::nullopt;
   const Vec2 line = state.line_to_world - state.line_from_world;
-  const Vec2 offset = state.line_from_world - approach.path.from_world;
+  const Vec2 offset = state.line_from_world - path.from_world;
   const double slope = Cross(along, line);
   if (slope < 1e-9 && slope > -1e-9) return std::nullopt;
   const double on_line = Cross(offset, along) / slope;  // 0 at one end of the line, 1 at the other
   if (on_line < 0 || on_line > 1) return std::nullopt;
-  const double distance = Cross(offset, line) / slope - approach.body_radius_m;
-  if (distance < 0 || distance > approach.distance_to_goal_m) return std::nullopt;
-  return distance;
+  return Cross(offset, line) / slope;
+}
+
+// Metres along the path until the shell is over the stop line; empty if that is not ahead, or the
+// shell is over it already.
+std::optional<double> DistanceToLine(const SignalState& state, const Approach& approach) {
+  if (const auto crossing = CrossingOf(state, approach.path)) {
+    const double distance = *crossing - approach.body_radius_m;
+    if (distance >= 0 && distance <= approach.distance_to_goal_m) return distance;
+  }
+  for (const Leg& leg : approach.beyond) {
+    const auto crossing = CrossingOf(state, leg.path);
+    if (!crossing || *crossing < 0 || *crossing > leg.length_m) continue;
+    const double distance = leg.from_m + *crossing - approach.body_radius_m;
+    if (distance >= 0) return distance;
+  }
+  return std::nullopt;
 }
 
 }  // namespace

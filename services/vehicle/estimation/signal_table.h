@@ -20,12 +20,20 @@ inline constexpr std::size_t kMaxSignals = 32;
 // it said 300 ms ago still holds, for a plan changes by the second.
 inline constexpr Nanoseconds kSignalAgeLimit{300'000'000};
 
+// A straight part of a route.
+struct Leg {
+  Path path;
+  double from_m = 0;  // where it starts, along the route from where the vehicle is
+  double length_m = 0;
+};
+
 // Where a vehicle is and how it goes, as far as a stop line is concerned.
 struct Approach {
-  Path path;  // towards the goal, or straight on
-  double distance_to_goal_m = 0;
+  Path path;                      // towards the goal or the next waypoint, or straight on
+  double distance_to_goal_m = 0;  // or to that waypoint
   double body_radius_m = 0;
-  double stopping_m = 0;  // at normal deceleration, from what it drives now
+  double stopping_m = 0;          // at normal deceleration, from what it drives now
+  std::span<const Leg> beyond{};  // that waypoint, as far as a line there matters already
 };
 
 // A light that says stop.
@@ -44,7 +52,7 @@ class SignalTable {
 
   // The nearest line ahead at which a fresh head says stop: red; or yellow, if the vehicle could
   // still stop when it first saw it: that is decided once a yellow. A head matters if the path
-  // crosses its line, before the goal, within 45 degrees of the direction the head is for, and the
+  // crosses its line, before its end, within 45 degrees of the direction the head is for, and the
   // shell is not over the line yet.
   std::optional<StopLine> MustStopAt(const Approach& approach, SteadyTime now);
 

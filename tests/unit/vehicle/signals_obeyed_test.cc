@@ -85,6 +85,58 @@ TEST(SignalsObeyed, OnlyAHeadOnThePathInTheDirectionOfTravelMatters) {
   EXPECT_EQ(rule(11, 0), Rule::kCruise);        // behind the goal
 }
 
+// A vehicle at 0.8 m/s needs 0.61 m to stand, and passes a waypoint at 0.3 m before it.
+class BehindAWaypoint : public testing::Test {
+ protected:
+  // At 0.6 m, 0.4 m before a waypoint, from where the path goes on to `next`.
+  explicit BehindAWaypoint() : options_(test::DefaultOptions()) { options_.cruise_m_s = 0.8; }
+  Outputs Approach(std::vector<Vec2> next, const SignalState& head) {
+    options_.route.waypoints_world[options_.route.count++] = {1, 0};
+    options_.goal.at_world = next.back();
+    next.pop_back();
+    for (const Vec2 at : next) options_.route.waypoints_world[options_.route.count++] = at;
+    BrainBench bench(options_);
+    for (int i = 0; i < 14; ++i) bench.Step(Driving(0.8));
+    return Hear(&bench, head, 0.8);
+  }
+
+  VehicleOptions options_;
+};
+
+TEST_F(BehindAWaypoint, RedStopsInTimeWhereThePathGoesOn) {
+  const Outputs out = Approach({{10, 0}}, Head(SignalPhase::kRed, 1.4));
+  EXPECT_EQ(out.command.decision.rule, Rule::kSignal);
+  EXPECT_NEAR(TargetSpeed(out), SpeedToStopWithin(1.4 - 0.6 - 0.25 - 0.15, 0.1, 0.6), 1e-9);
+}
+
+TEST_F(BehindAWaypoint, RedStopsInTimePastShortLegs) {
+  const Outputs out = Approach({{1.15, 0}, {1.3, 0}, {10, 0}}, Head(SignalPhase::kRed, 1.4));
+  EXPECT_EQ(out.command.decision.rule, Rule::kSignal);
+  EXPECT_NEAR(TargetSpeed(out), SpeedToStopWithin(0.4, 0.1, 0.6), 1e-9);
+}
+
+TEST_F(BehindAWaypoint, RedStopsAlongABend) {
+  const Outputs out = Approach({{9, 4}}, Head(SignalPhase::kRed, 1.4));
+  EXPECT_EQ(out.command.decision.rule, Rule::kSignal);
+}
+
+TEST_F(BehindAWaypoint, ALineThatThePathTurnsAwayFromIsNone) {
+  const Outputs out = Approach({{1, 9}}, Head(SignalPhase::kRed, 1.4));
+  EXPECT_EQ(out.command.decision.rule, Rule::kCruise);
+}
+
+TEST_F(BehindAWaypoint, ALineBehindTheGoalIsNone) {
+  const Outputs out = Approach({{1.1, 0}}, Head(SignalPhase::kRed, 1.4));
+  EXPECT_EQ(out.command.decision.rule, Rule::kCruise);
+}
+
+// Further on there will be time enough once the waypoint is passed: until then peers are told
+// nothing of it.
+TEST_F(BehindAWaypoint, ALineFarBehindItIsNoneYet) {
+  const Outputs out = Approach({{10, 0}}, Head(SignalPhase::kRed, 2.5));
+  EXPECT_EQ(out.command.decision.rule, Rule::kCruise);
+}
+
 TEST(SignalsObeyed, GreenAndDarkHoldNobody) {
   BrainBench bench(test::DefaultOptions());
   EXPECT_EQ(Hear(&bench, Head(SignalPhase::kGreen, 0.5), 0).command.decision.rule, Rule::kCruise);

@@ -178,6 +178,19 @@ INSTANTIATE_TEST_SUITE_P(Order, LitCrossingTest,
                                                                                  : "Equal";
                          });
 
+// Vehicle 2 passes a waypoint up to 0.3 m before it, and needs 0.6 m to stand.
+TEST(LitCrossing, ARedLightJustBehindAWaypointStopsInTime) {
+  for (const double behind_m : {0.05, 0.15, 0.3, 0.45, 0.6}) {
+    Scenario scenario = LitCrossing(0.3, 0.8, 60);
+    scenario.vehicles[1].route.count = 1;
+    scenario.vehicles[1].route.waypoints_world[0] = {0, -kLine_m - behind_m};
+    SmallFleet fleet(scenario);
+    const Seen seen = Drive(&fleet);
+    EXPECT_EQ(fleet.Count(EventKind::kArrived), 2U) << behind_m;
+    EXPECT_GT(seen.went_over_at_s[1], 30) << behind_m;
+  }
+}
+
 // A second vehicle on the same path stands behind the first at red and does not overtake it.
 TEST(LitCrossing, AQueueAtRedStaysAQueue) {
   Scenario scenario = LitCrossing(0.3, 0.3, 60);
