@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "services/vehicle/decision/detour.h"
 #include "services/vehicle/estimation/injected_mutants.h"

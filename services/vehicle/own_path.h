@@ -25,8 +25,8 @@ struct LegsBeyond {
   std::span<const Leg> All() const { return {of.data(), count}; }
 };
 
-// Those on which the vehicle goes on in about the same direction, up to reach_m past the waypoint.
-// It does not stop there: what it must stop for, it has to know before.
+// Those on which the vehicle continues in about the same direction, up to reach_m past the
+// waypoint. It does not stop there: what it must stop for, it has to know before.
 LegsBeyond FindLegsBeyond(const OwnCourse& course, std::uint32_t waypoint,
                           const VehicleOptions& options, double reach_m);
 

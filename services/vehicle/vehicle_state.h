@@ -12,7 +12,7 @@
 //   movers     unexplained ones: NoteTurning, DetectMovers
 //   last       what it decided: Remember
 //   published  its last beacon: MakeBeacon
-//   counters   what was refused or distrusted: whoever refuses or distrusts
+//   counters   what was refused or distrusted: by all that refuse or distrust
 // EnterWorld, and a roster or handover that says how far its task was, set back what is of a place.
 #pragma once
 

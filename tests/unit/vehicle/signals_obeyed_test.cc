@@ -88,8 +88,8 @@ TEST(SignalsObeyed, OnlyAHeadOnThePathInTheDirectionOfTravelMatters) {
 // A vehicle at 0.8 m/s needs 0.61 m to stand, and passes a waypoint at 0.3 m before it.
 class BehindAWaypoint : public testing::Test {
  protected:
-  // At 0.6 m, 0.4 m before a waypoint, from where the path goes on to `next`.
-  explicit BehindAWaypoint() : options_(test::DefaultOptions()) { options_.cruise_m_s = 0.8; }
+  // At 0.6 m, 0.4 m before a waypoint, from where the path continues to `next`.
+  BehindAWaypoint() : options_(test::DefaultOptions()) { options_.cruise_m_s = 0.8; }
   Outputs Approach(std::vector<Vec2> next, const SignalState& head) {
     options_.route.waypoints_world[options_.route.count++] = {1, 0};
     options_.goal.at_world = next.back();
@@ -130,7 +130,7 @@ TEST_F(BehindAWaypoint, ALineBehindTheGoalIsNone) {
   EXPECT_EQ(out.command.decision.rule, Rule::kCruise);
 }
 
-// Further on there will be time enough once the waypoint is passed: until then peers are told
+// Further on there will be time enough once the waypoint is passed: until then its beacons say
 // nothing of it.
 TEST_F(BehindAWaypoint, ALineFarBehindItIsNoneYet) {
   const Outputs out = Approach({{10, 0}}, Head(SignalPhase::kRed, 2.5));
