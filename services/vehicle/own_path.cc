@@ -121,7 +121,6 @@ OwnCourse UpdatePath(const OwnPose& pose, const VehicleOptions& options, RoutePr
 
 LegsBeyond FindLegsBeyond(const OwnCourse& course, std::uint32_t waypoint,
                           const VehicleOptions& options, double reach_m) {
-  constexpr double kSameWay = 0.7071067811865476;  // the cosine of 45 degrees
   LegsBeyond legs;
   if (course.stops_there || waypoint >= options.route.count) return legs;
   Vec2 at = options.route.waypoints_world[waypoint];
@@ -133,7 +132,7 @@ LegsBeyond FindLegsBeyond(const OwnCourse& course, std::uint32_t waypoint,
     if (!next || *next == at) break;
     const double length_m = Norm(*next - at);
     const Path path{at, (1 / length_m) * (*next - at)};
-    if (Dot(path.direction_world, direction_world) < kSameWay) break;
+    if (Dot(path.direction_world, direction_world) < kCosSameWay) break;
     legs.of[legs.count++] = {path, from_m, std::min(length_m, end_m - from_m)};
     at = *next;
     direction_world = path.direction_world;

@@ -8,8 +8,7 @@
 namespace giveway {
 namespace {
 
-constexpr double kLineMargin_m = 0.15;              // left between shell and line
-constexpr double kCosSameWay = 0.7071067811865476;  // 45 degrees
+constexpr double kLineMargin_m = 0.15;  // left between shell and line
 
 bool IsFresh(SteadyTime heard, SteadyTime now) { return now - heard <= kSignalAgeLimit; }
 

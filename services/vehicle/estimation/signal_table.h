@@ -19,6 +19,8 @@ inline constexpr std::size_t kMaxSignals = 32;
 // Three times the period at which heads speak: two in a row may be lost. A light is no beacon: what
 // it said 300 ms ago still holds, for a plan changes by the second.
 inline constexpr Nanoseconds kSignalAgeLimit{300'000'000};
+// In about the same direction: within 45 degrees, of which this is the cosine.
+inline constexpr double kCosSameWay = 0.7071067811865476;
 
 // A straight part of a route.
 struct Leg {
