@@ -54,10 +54,6 @@ std::string ProcessName(MemberId member) {
                                              : NameOf(member);
 }
 
-}  // namespace
-
-namespace {
-
 bool IsOfWorld(const faults::Fault& fault) {
   return faults::ActorOf(fault.kind) == faults::Actor::kWorld;
 }
