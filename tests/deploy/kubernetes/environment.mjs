@@ -9,7 +9,7 @@ const upper = (flag) => `GIVEWAY_${flag.toUpperCase().replaceAll('-', '_')}`;
 function known(root) {
   const services = join(root, 'services');
   const flags = readFileSync(join(services, 'config/flags.cc'), 'utf8');
-  const added = /Add(?:Optional|Switch)?\("--([a-z-]+)"/g;
+  const added = /Add(?:Optional|Switch)?\(\s*"--([a-z-]+)"/g;
   const all = new Set([...flags.matchAll(added)].map((found) => upper(found[1])));
   for (const file of readdirSync(services, { recursive: true }).filter((name) => name.endsWith('.cc'))) {
     const text = readFileSync(join(services, file), 'utf8');
