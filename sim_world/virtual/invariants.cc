@@ -147,6 +147,7 @@ void Invariants::NoteGap(Tick tick) {
   circle_ticks_ = 0;
   halted_ticks_ = 0;
   keys_known_at_ = Number(tick) + limits_.key_age_ticks;
+  if (tick > last_tick_) progress_.Skip(TicksBetween(last_tick_, tick) - 1);
 }
 
 // Of two that touch the one that was driving is at fault, of two that drove the faster.

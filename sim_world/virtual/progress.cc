@@ -128,6 +128,10 @@ void Progress::FindCrowds(std::span<const Observed> vehicles) {
   }
 }
 
+void Progress::Skip(std::uint32_t ticks) {
+  for (Track& track : tracks_) track.progress = After(track.progress, ticks);
+}
+
 std::span<const std::uint32_t> Progress::Observe(Tick tick, double time_s, bool red,
                                                  std::span<const Observed> vehicles) {
   wedged_.clear();

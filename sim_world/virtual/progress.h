@@ -30,6 +30,9 @@ class Progress {
   // Adds a vehicle that the scenario does not name; one of the same id is forgotten.
   void Admit(const VehicleOptions& options);
 
+  // So many ticks were not seen: they count for no vehicle.
+  void Skip(std::uint32_t ticks);
+
   // Processes one tick, time_s after the start signal. Vehicles in order of their ids, the admitted
   // ones among them; `red` says whether any light is red or yellow. Returns those that break the
   // invariant from this tick on, by index; valid until the next.

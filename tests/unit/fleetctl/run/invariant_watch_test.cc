@@ -106,6 +106,16 @@ TEST_F(InvariantWatchTest, WhatAWorldBeforeSaidLateIsNotHeard) {
   EXPECT_EQ(watch_->TicksJudged(), 70U);  // by its first truth it may still wait
 }
 
+TEST_F(InvariantWatchTest, TicksThatWereNotSeenDoNotMakeAVehicleStuck) {
+  Observe(20);
+  Of(one_).seen = false;
+  Observe(2000);
+  Of(one_).seen = true;
+  Observe(60);
+  watch_->Finish(false);
+  EXPECT_EQ(Count(Invariant::kProgress), 0U);
+}
+
 TEST_F(InvariantWatchTest, WhoDrivesPastARedLightBreaksTheRun) {
   scenario_.signals = {{.id = SignalId{1},
                         .line_from_world = {0, -1},
