@@ -34,6 +34,10 @@ void Clearance::Admit(const VehicleOptions& options) {
   }
 }
 
+void Clearance::Forget(VehicleId vehicle) {
+  std::erase_if(tracks_, [vehicle](const Track& track) { return track.vehicle == vehicle; });
+}
+
 bool Clearance::IsNear(const Approaching& own, const Outline& other) const {
   const Nearest nearest = NearestBetween(OutlineAt(own.body, 0), other);
   return nearest.gap_m < margin_m_ && Dot(own.velocity_world, nearest.axis_world) > kTowards_m_s;

@@ -34,6 +34,7 @@ class Clearance {
 
   // Adds a vehicle that the scenario does not name; one of the same id is forgotten.
   void Admit(const VehicleOptions& options);
+  void Forget(VehicleId vehicle);
 
   // Processes one tick. Vehicles in order of their ids, the admitted ones among them. Returns those
   // that come too near from this tick on; valid until the next.

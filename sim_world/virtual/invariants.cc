@@ -86,6 +86,13 @@ void Invariants::Admit(const VehicleOptions& options) {
   clearance_.Admit(options);
 }
 
+void Invariants::Forget(VehicleId vehicle) {
+  std::erase_if(tracks_, [vehicle](const Track& track) { return track.vehicle == vehicle; });
+  red_lights_.Forget(vehicle);
+  progress_.Forget(vehicle);
+  clearance_.Forget(vehicle);
+}
+
 void Invariants::Report(Invariant invariant, Tick tick, VehicleId vehicle, VehicleId other) {
   ++counts_[static_cast<std::size_t>(invariant)];
   const std::uint32_t index = IndexOf(vehicle);

@@ -54,6 +54,10 @@ void Progress::Admit(const VehicleOptions& options) {
   }
 }
 
+void Progress::Forget(VehicleId vehicle) {
+  std::erase_if(tracks_, [vehicle](const Track& track) { return track.vehicle == vehicle; });
+}
+
 std::uint32_t Progress::IndexOf(VehicleId vehicle) const {
   const auto found = std::ranges::lower_bound(tracks_, vehicle, {}, &Track::vehicle);
   if (found == tracks_.end() || found->vehicle != vehicle) return kNoTrack;

@@ -29,6 +29,7 @@ class Progress {
 
   // Adds a vehicle that the scenario does not name; one of the same id is forgotten.
   void Admit(const VehicleOptions& options);
+  void Forget(VehicleId vehicle);
 
   // So many ticks were not seen: they count for no vehicle.
   void Skip(std::uint32_t ticks);

@@ -66,6 +66,10 @@ void RedLights::Admit(const VehicleOptions& options) {
   }
 }
 
+void RedLights::Forget(VehicleId vehicle) {
+  std::erase_if(tracks_, [vehicle](const Track& track) { return track.vehicle == vehicle; });
+}
+
 void RedLights::Follow(double time_s) {
   any_stops_ = false;
   for (Head& head : heads_) {

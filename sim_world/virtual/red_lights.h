@@ -19,6 +19,7 @@ class RedLights {
 
   // Adds a vehicle that the scenario does not name; one of the same id is forgotten.
   void Admit(const VehicleOptions& options);
+  void Forget(VehicleId vehicle);
 
   // Processes one tick, time_s after the start signal. Vehicles in order of their ids, the admitted
   // ones among them. Returns those that passed a red light since the last tick, by index; valid

@@ -48,7 +48,10 @@ void InvariantWatch::Fold(const link::Observed& observed) {
 void InvariantWatch::Admit(const RosterEntry& entry) {
   if (!entry.accepted || entry.spawn == 0 || entry.spawn > scenario_.spawns.size()) return;
   const auto known = spawns_.find(entry.vehicle);
-  if (known != spawns_.end() && known->second == entry.spawn) return;  // it is back
+  if (known != spawns_.end() && known->second == entry.spawn) {
+    observations_.at(entry.vehicle).Return();
+    return;
+  }
   VehicleOptions options = scenario_.spawns[entry.spawn - 1];
   options.id = entry.vehicle;
   invariants_.Admit(options);
@@ -101,6 +104,7 @@ void InvariantWatch::EvaluateUntil(Tick last) {
   for (; next_ != kNoTick && next_ <= last; next_ = After(next_, 1)) {
     Evaluate(next_);
     judged_ = next_;
+    ForgetGone();
   }
 }
 
@@ -129,6 +133,16 @@ void InvariantWatch::NoteComingsAndGoings(Tick tick) {
                       event.kind == EventKind::kFaultDue;
     if (gone || event.kind == EventKind::kJoined) sight->second.SetLives(!gone);
   }
+}
+
+// In weeks thousands may come and go.
+void InvariantWatch::ForgetGone() {
+  std::erase_if(spawns_, [this](const auto& place) {
+    if (!observations_.at(place.first).IsGone()) return false;
+    observations_.erase(place.first);
+    invariants_.Forget(place.first);
+    return true;
+  });
 }
 
 // False if something about one of them is not known.

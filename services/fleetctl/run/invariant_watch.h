@@ -42,6 +42,7 @@ class InvariantWatch {
   const sim::Invariants& Judged() const { return invariants_; }
   std::uint32_t TicksJudged() const { return ticks_judged_; }
   std::uint32_t TicksUnseen() const { return ticks_unseen_; }
+  std::size_t Vehicles() const { return observations_.size(); }  // that are judged
   // The counts, and the verdict of a run that otherwise passed.
   void AddTo(Report* report) const;
 
@@ -56,23 +57,25 @@ class InvariantWatch {
   void Evaluate(Tick tick);
   double TimeOf(Tick tick) const;  // since the start signal
   void NoteComingsAndGoings(Tick tick);
+  void ForgetGone();
   bool Observe(Tick tick);
 
   Scenario scenario_;
   sim::Invariants invariants_;
   std::map<VehicleId, VehicleObservation> observations_;
-  std::map<VehicleId, std::uint32_t> spawns_;  // of vehicles that the scenario does not name
-  WorldEpoch epoch_ = kNoEpoch;                // of the newest world heard
-  std::deque<WorldEpoch> past_epochs_;         // the last ones before it
-  double waits_at_s_ = 0;                      // that world's time until its first step
-  Tick newest_ = kNoTick;                      // of any truth of it
-  Tick next_ = kNoTick;                        // to be judged; kNoTick before the start
-  Tick judged_ = kNoTick;                      // the newest, of any world: never one twice
-  Tick first_ = kNoTick;                       // of this world that was judged, and
-  double first_time_s_ = 0;                    // its time since the start signal
-  Tick last_ = kNoTick;                        // the run's, once it has ended
-  std::vector<WorldEvent> events_;             // not given to the invariants yet
-  std::size_t noted_ = 0;                      // of them: used to learn which vehicles are live
+  // Of vehicles that the scenario does not name, until they are gone.
+  std::map<VehicleId, std::uint32_t> spawns_;
+  WorldEpoch epoch_ = kNoEpoch;         // of the newest world heard
+  std::deque<WorldEpoch> past_epochs_;  // the last ones before it
+  double waits_at_s_ = 0;               // that world's time until its first step
+  Tick newest_ = kNoTick;               // of any truth of it
+  Tick next_ = kNoTick;                 // to be judged; kNoTick before the start
+  Tick judged_ = kNoTick;               // the newest, of any world: never one twice
+  Tick first_ = kNoTick;                // of this world that was judged, and
+  double first_time_s_ = 0;             // its time since the start signal
+  Tick last_ = kNoTick;                 // the run's, once it has ended
+  std::vector<WorldEvent> events_;      // not given to the invariants yet
+  std::size_t noted_ = 0;               // of them: used to learn which vehicles are live
   std::vector<sim::Observed> seen_;
   std::uint32_t ticks_judged_ = 0;
   std::uint32_t ticks_unseen_ = 0;

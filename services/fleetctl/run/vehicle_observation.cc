@@ -56,9 +56,9 @@ void VehicleObservation::Take(const VehicleStatus& status) {
 }
 
 bool VehicleObservation::AddBody(Tick tick, sim::Observed* seen) const {
-  const Truth* const truth = AroundOf(truths_, tick, &Truth::tick).last;
+  const auto [truth, next] = AroundOf(truths_, tick, &Truth::tick);
   if (truth == nullptr) return true;  // it has not arrived yet
-  if (truth->tick != tick) return false;
+  if (truth->tick != tick) return !truth->present && (next == nullptr || !next->present);
   seen->present = truth->present;
   seen->arrived = truth->arrived;
   seen->position_world = truth->world_from_body.position_world;
@@ -113,8 +113,15 @@ void VehicleObservation::Forget() {
   status_.clear();
 }
 
+void VehicleObservation::Return() {
+  if (!IsTakenAway()) return;
+  Forget();
+  lives_ = true;
+}
+
 std::optional<sim::Observed> VehicleObservation::At(Tick tick) {
   sim::Observed seen{.vehicle = vehicle_, .lives = lives_};
+  gone_ticks_ = !lives_ && (truths_.empty() || IsTakenAway()) ? gone_ticks_ + 1 : 0;
   const bool known = AddBody(tick, &seen) && (!seen.present || AddDecision(tick, &seen));
   // A beacon of this tick may answer an older scan, and is looked up in the statuses by that.
   constexpr std::uint32_t kKept = 64;

@@ -25,6 +25,8 @@ class VehicleObservation {
  public:
   // How long the last sample remains valid if newer ones were missed.
   static constexpr std::uint32_t kHeldTicks = 4;
+  // The world tells of a body for a second after it was taken away, and then no more.
+  static constexpr std::uint32_t kGoneTicks = 100;
 
   explicit VehicleObservation(const VehicleOptions& options)
       : vehicle_(options.id), drive_(options.profile.drive) {}
@@ -37,6 +39,10 @@ class VehicleObservation {
   void SetLives(bool lives) { lives_ = lives; }
   // What was seen of it; ticks may start again.
   void Forget();
+  // It has a place again. Its body may not be told of yet.
+  void Return();
+  // Neither process nor body is there, and has not been for kGoneTicks queries.
+  bool IsGone() const { return gone_ticks_ > kGoneTicks; }
 
   // nullopt if it is not known. Query ticks in order: older data is dropped.
   std::optional<sim::Observed> At(Tick tick);
@@ -49,6 +55,7 @@ class VehicleObservation {
     bool follows = false;    // directly on the one before it
   };
 
+  bool IsTakenAway() const { return !truths_.empty() && !truths_.back().present; }
   bool AddBody(Tick tick, sim::Observed* seen) const;
   bool AddDecision(Tick tick, sim::Observed* seen) const;
   Tick Answered(const BeaconRecord& last, const BeaconRecord* next, Tick tick) const;
@@ -58,6 +65,7 @@ class VehicleObservation {
   VehicleId vehicle_;
   DriveGeometry drive_;
   bool lives_ = true;
+  std::uint32_t gone_ticks_ = 0;
   std::deque<Truth> truths_;          // ascending by tick
   std::deque<BeaconRecord> beacons_;  // ascending by tick of publication
   std::deque<VehicleStatus> status_;  // ascending by tick

@@ -349,6 +349,58 @@ TEST_F(InvariantWatchTest, AnOpenFleetsNewcomersAreJudgedFromTheirRosterEntryOn)
   EXPECT_EQ(watch_->TicksUnseen(), 0U);
 }
 
+TEST_F(InvariantWatchTest, TheOthersAreJudgedAfterTheWorldHasForgottenOneThatLeft) {
+  scenario_.spawns.push_back(scenario_.vehicles[1]);
+  scenario_.vehicles.pop_back();
+  scenario_.expect.arrived.clear();
+  Begin();
+  link::Observed joined;
+  joined.roster.push_back({.vehicle = two_, .accepted = true, .epoch = kEpoch, .spawn = 1});
+  watch_->Fold(joined);
+  Observe({{.kind = EventKind::kJoined, .vehicle = two_}});
+  Observe(20);
+  Observe({{.kind = EventKind::kSilent, .vehicle = two_}});
+  Of(two_).speaks = false;
+  Observe(20);
+  Of(two_).truth.present = false;
+  Observe(20);
+  Of(two_).seen = false;
+  Observe(300);
+  EXPECT_EQ(watch_->TicksUnseen(), 0U);
+  EXPECT_EQ(watch_->Vehicles(), 1U);
+  watch_->Fold(joined);  // and it comes again
+  Of(two_).seen = Of(two_).speaks = Of(two_).truth.present = true;
+  Observe({{.kind = EventKind::kJoined, .vehicle = two_}});
+  Observe(30);
+  Halt(one_, two_);
+  Observe(30);
+  EXPECT_EQ(Count(Invariant::kOrder), 1U);
+  EXPECT_EQ(watch_->TicksUnseen(), 0U);
+}
+
+TEST_F(InvariantWatchTest, OneThatIsBackSoonAfterItWasTakenAwayIsJudged) {
+  scenario_.spawns.push_back(scenario_.vehicles[1]);
+  scenario_.vehicles.pop_back();
+  scenario_.expect.arrived.clear();
+  Begin();
+  link::Observed joined;
+  joined.roster.push_back({.vehicle = two_, .accepted = true, .epoch = kEpoch, .spawn = 1});
+  watch_->Fold(joined);
+  Observe({{.kind = EventKind::kJoined, .vehicle = two_}});
+  Observe(20);
+  Of(two_).truth.present = false;
+  Observe({{.kind = EventKind::kLeft, .vehicle = two_}});
+  Of(two_).speaks = false;
+  Observe(5);
+  watch_->Fold(joined);
+  Of(two_).speaks = Of(two_).truth.present = true;
+  Observe({{.kind = EventKind::kJoined, .vehicle = two_}});
+  Observe(200);
+  Halt(one_, two_);
+  Observe(30);
+  EXPECT_EQ(Count(Invariant::kOrder), 1U);
+}
+
 TEST_F(InvariantWatchTest, WhereNobodyWasSeenNothingIsClaimed) {
   watch_->Finish(true);
   Report report;
