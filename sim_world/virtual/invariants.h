@@ -90,7 +90,7 @@ class Invariants {
 
   // Adds a vehicle that the scenario does not name; one of the same id is forgotten.
   void Admit(const VehicleOptions& options);
-  // One of those that is gone for good: from the next tick on it is not among the vehicles.
+  // One of those that is gone permanently: from the next tick on it is not among the vehicles.
   void Forget(VehicleId vehicle);
 
   // Processes one tick, time_s after the start signal. Vehicles in order of their ids; events are

@@ -91,9 +91,9 @@ TEST_F(DiscoveryServerTest, ThatDoesNotAnswerIsNamedUntilItDoes) {
 
 // Of a slow name server the second answer took so long that the watchdog ended the vehicle.
 TEST_F(DiscoveryServerTest, IsNotLookedUpOnceMoreByTheLink) {
-  const std::string nobody(64, 'n');  // no name at all: looked up, it has no address
+  const std::string unknown(64, 'n');  // no name at all: looked up, it has no address
   const Server server = MakeServer(domain_.Domain(), port_);
-  options_.discovery_servers = {{nobody, port_}};
+  options_.discovery_servers = {{unknown, port_}};
   options_.server_addresses = {{"127.0.0.1", port_}};
   Beaconing one(options_, VehicleId{1});
   EXPECT_TRUE(Eventually([&] { return one.Link().WhyNoPeerIsFound().empty(); }));
@@ -125,7 +125,7 @@ TEST(ServerAddresses, AreThoseOfTheNamesAndOfNumbersAsTheyAre) {
 
 // A label of more than 63 letters is no name at all: no name server is asked for it.
 TEST(ServerAddresses, OfANameThatHasNoneIsSaid) {
-  const std::string nobody(64, 'n');
+  const std::string unknown(64, 'n');
   EXPECT_THAT(link::FindServers({{"localhost", 1}, {nobody, 1}}).fault,
               AllOf(HasSubstr("discovery server " + nobody + " ("), HasSubstr("has no address yet"),
                     ::testing::Not(HasSubstr("localhost"))));

@@ -25,7 +25,7 @@ class VehicleObservation {
  public:
   // How long the last sample remains valid if newer ones were missed.
   static constexpr std::uint32_t kHeldTicks = 4;
-  // The world tells of a body for a second after it was taken away, and then no more.
+  // The world reports a body for a second after it was taken away, and then no more.
   static constexpr std::uint32_t kGoneTicks = 100;
 
   explicit VehicleObservation(const VehicleOptions& options)
@@ -39,7 +39,7 @@ class VehicleObservation {
   void SetLives(bool lives) { lives_ = lives; }
   // What was seen of it; ticks may start again.
   void Forget();
-  // It has a place again. Its body may not be told of yet.
+  // It has a place again. Its body may not be reported yet.
   void Return();
   // Neither process nor body is there, and has not been for kGoneTicks queries.
   bool IsGone() const { return gone_ticks_ > kGoneTicks; }
