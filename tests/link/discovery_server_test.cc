@@ -126,8 +126,8 @@ TEST(ServerAddresses, AreThoseOfTheNamesAndOfNumbersAsTheyAre) {
 // A label of more than 63 letters is no name at all: no name server is asked for it.
 TEST(ServerAddresses, OfANameThatHasNoneIsSaid) {
   const std::string unknown(64, 'n');
-  EXPECT_THAT(link::FindServers({{"localhost", 1}, {nobody, 1}}).fault,
-              AllOf(HasSubstr("discovery server " + nobody + " ("), HasSubstr("has no address yet"),
+  EXPECT_THAT(link::FindServers({{"localhost", 1}, {unknown, 1}}).fault,
+              AllOf(HasSubstr("discovery server " + unknown + " ("), HasSubstr("has no address yet"),
                     ::testing::Not(HasSubstr("localhost"))));
 }
 
