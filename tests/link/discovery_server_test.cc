@@ -127,8 +127,8 @@ TEST(ServerAddresses, AreThoseOfTheNamesAndOfNumbersAsTheyAre) {
 TEST(ServerAddresses, OfANameThatHasNoneIsSaid) {
   const std::string unknown(64, 'n');
   EXPECT_THAT(link::FindServers({{"localhost", 1}, {unknown, 1}}).fault,
-              AllOf(HasSubstr("discovery server " + unknown + " ("), HasSubstr("has no address yet"),
-                    ::testing::Not(HasSubstr("localhost"))));
+              AllOf(HasSubstr("discovery server " + unknown + " ("),
+                    HasSubstr("has no address yet"), ::testing::Not(HasSubstr("localhost"))));
 }
 
 }  // namespace
