@@ -206,6 +206,9 @@ Lights Vehicle::AssessSignals(const Moment& moment, const OwnMotion& motion,
   if (options_.behaviour != Behaviour::kCooperative || moment.run_state != RunState::kRunning) {
     return {};
   }
+  SignalTable& signals = state_->heard.signals;
+  const bool at_signal = state_->last.decision.rule == Rule::kSignal;
+  if (signals.Heard() == 0) return {.at_signal = at_signal};
   const RobotModel& profile = options_.profile;
   const double stopping_m = StoppingDistance(std::max(0.0, motion.speed_m_s), motion.reaction_s,
                                              profile.deceleration_m_s2);
@@ -215,14 +218,13 @@ Lights Vehicle::AssessSignals(const Moment& moment, const OwnMotion& motion,
   const LegsBeyond beyond =
       FindLegsBeyond(course, state_->route.waypoint, options_,
                      motion.slows_m + profile.body_radius_m + kInHandAtWaypoint_m);
-  return {.stop_line =
-              state_->heard.signals.MustStopAt({.path = course.path,
-                                                .distance_to_goal_m = course.distance_to_goal_m,
-                                                .body_radius_m = profile.body_radius_m,
-                                                .stopping_m = stopping_m,
-                                                .beyond = beyond.All()},
-                                               moment.now),
-          .at_signal = state_->last.decision.rule == Rule::kSignal};
+  return {.stop_line = signals.MustStopAt({.path = course.path,
+                                           .distance_to_goal_m = course.distance_to_goal_m,
+                                           .body_radius_m = profile.body_radius_m,
+                                           .stopping_m = stopping_m,
+                                           .beyond = beyond.All()},
+                                          moment.now),
+          .at_signal = at_signal};
 }
 
 OwnView Vehicle::AssessSelf(const Inputs& inputs) {

@@ -13,8 +13,6 @@
 
 namespace giveway::fleetctl {
 
-using giveway::ResolveQosFile;
-
 // The file, or the finding that says why it cannot be read. A file over the limit is not read
 // completely.
 std::variant<qos::ProfileFile, qos::Finding> ReadQosFile(const std::string& path);

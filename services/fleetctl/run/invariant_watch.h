@@ -6,7 +6,7 @@
 //
 // A world that was restarted resumes under another epoch, from ticks it had already passed: what
 // was seen of its ticks before is judged and let go, and the new ones are judged from its first
-// step on.
+// step on. The link believes one world at a time, so a stranger's is not taken for it.
 //
 // Limits are wider than in a virtual run without loss, each for its own cause:
 //  - brains miss beacons and scans as they do with a lossy radio: LimitsFor;

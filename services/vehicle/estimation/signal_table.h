@@ -51,6 +51,7 @@ class SignalTable {
   // full a silent head is evicted; false if none is silent, or the state is refused.
   bool Take(const SignalState& state, WorldEpoch epoch, SteadyTime now);
   void LeaveWorld() { count_ = 0; }
+  std::uint32_t Heard() const { return count_; }  // heads of this world, so far
 
   // The nearest line ahead at which a fresh head says stop: red; or yellow, if the vehicle could
   // still stop when it first saw it: that is decided once a yellow. A head matters if the path
