@@ -23,10 +23,11 @@ for vehicle in a b c; do await "$vehicle drives" 15 "$vehicle" 'cruise'; done
 mv "$SCRATCH/disk" "$SCRATCH/away"
 take_memory_of a
 await "the vehicle says so" 10 a 'drives on without a recording'
+before=$(lines_of world)
 take_memory_of world
 await "the world says so" 10 world 'resumes from the checkpoint'
 await "the checkpoint fails" 10 world 'checkpoint .*world.checkpoint'
-sleep 3
+await "the run continues with all" 15 world 'started with 3 vehicles' "$before"
 for member in world a b c; do
   alive "$member" || fail "$member is gone: $(tail -n 3 "$SCRATCH/$member.log")"
 done
