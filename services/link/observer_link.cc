@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "services/link/convert/convert.h"
-#include "services/link/fastdds/reader_events.h"
 #include "services/link/inbox/beacon_inbox.h"
 #include "services/link/inbox/participant_of.h"
 #include "services/link/inbox/tick_period.h"
@@ -16,6 +15,11 @@ namespace {
 
 constexpr std::int32_t kBeaconDepth = 32;  // an observer that looks once a second misses none
 
+LinkOptions OfAnObserver(LinkOptions options) {
+  options.requests_no_times = true;  // its vehicles' silence is theirs to judge
+  return OfAllBodies(std::move(options));
+}
+
 }  // namespace
 
 struct ObserverLink::Impl {
@@ -23,11 +27,10 @@ struct ObserverLink::Impl {
       : options(given),
         ranges(given_ranges),
         commands(given_commands),
-        participant(OfAllBodies(options), "giveway-observer", names),
+        participant(OfAnObserver(options), "giveway-observer", names),
         status_reader(participant.MakeReader<wire::Status>("v*", &status_owners)),
-        beacons(participant.MakeReader<wire::Beacon>(
-                    options.area + "/*", kBeaconDepth, &beacon_events,
-                    dds::StatusMask::requested_deadline_missed(), &beacon_ids),
+        beacons(participant.MakeReader<wire::Beacon>(options.area + "/*", kBeaconDepth, nullptr,
+                                                     dds::StatusMask::none(), &beacon_ids),
                 names.Writers(), participant.Prefix()),
         truth_reader(participant.MakeReader<wire::Truth>(kWorldPartition, &worlds)),
         event_reader(participant.MakeReader<wire::Event>(kWorldPartition,
@@ -94,7 +97,6 @@ struct ObserverLink::Impl {
   const Ranges ranges;
   const Commands commands;
   ParticipantNames names;  // the library calls these two until the participant is gone
-  ReaderEvents beacon_events{&RemoveDeparted<wire::Beacon>};  // only to remove; its news go unread
   KeyQuota beacon_ids{"beacon", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, kMostIdsOfWriter};
   FirstComerFilter status_owners{"status"};
   FirstComerFilter command_owners{"motor command"};

@@ -176,6 +176,11 @@ void SetDepth(Qos& qos, std::int32_t depth) {
   if (depth != Participant::kProfileDepth) qos.history().depth = depth;
 }
 
+void RequestNoTimes(dds::DataReaderQos& qos) {
+  qos.deadline().period = dds::DeadlineQosPolicy().period;
+  qos.liveliness().lease_duration = dds::LivelinessQosPolicy().lease_duration;
+}
+
 // A reliable sample that got lost, or whose acknowledgement is awaited at the end, waits for the
 // next heartbeat; the library's default is 3 s. Set here and not in the profile because Fast
 // DDS 2.9 and 3.1 spell <times> differently. Heartbeats go only while something is unacknowledged.
@@ -231,6 +236,7 @@ Participant::Participant(const LinkOptions& options, const std::string& name,
   const dds::DomainParticipantQos qos = MakeQos(options, name, true, impairer_);
   servers_ = ServersOf(qos, options);
   secured_ = IsSecured(qos);
+  requests_no_times_ = options.requests_no_times;
   if (std::ranges::any_of(qos.transport().user_transports, IsSharedMemory)) memory_.emplace();
   // No status reaches the participant's listener, only discovery: in 2.9.1 an offered deadline
   // missed by a writer without a listener of its own crashes there.
@@ -357,6 +363,7 @@ dds::DataReader& Participant::MakeReader(dds::Topic& topic, const std::string& p
   dds::TopicDescription& read = filter.filter == nullptr ? topic : Filtered(topic, filter);
   dds::DataReaderQos qos = ReaderQos(*subscriber, profile, depth);
   qos.deadline().period = DeadlineOf(profile, qos.deadline().period);
+  if (requests_no_times_) RequestNoTimes(qos);
   auto* reader = subscriber->create_datareader(&read, qos, listener, mask);
   if (reader == nullptr) ThrowNotMade("reader of profile \"" + profile + "\"");
   readers_.emplace_back(profile, reader);

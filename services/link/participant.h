@@ -111,6 +111,7 @@ class Participant {
   std::string topic_prefix_;
   std::string servers_;  // of a client, as they were named; else empty
   bool secured_ = false;
+  bool requests_no_times_ = false;
   std::optional<SharedMemoryWatch> memory_;  // none where it uses no shared memory
   std::unique_ptr<dds::DomainParticipant, DeleteAll> participant_;
   std::vector<std::pair<std::string, dds::DataWriter*>> writers_;  // by profile, as they were made

@@ -26,8 +26,6 @@
 namespace giveway::link {
 namespace {
 
-constexpr std::uint32_t kForgetEvery = 32;  // turns; of vehicles that are gone
-
 // Of one participant: more than it may ask for, see session_owners.h, for some of them are over.
 constexpr std::size_t kMostSessions = 32;
 constexpr std::size_t kMostRefusals = 8;  // kept for the log; the counters have all
@@ -63,7 +61,6 @@ struct WorldLink::Impl {
     vehicles.Translate(queued, SteadyTime{0}, discarded);
   }
   void Receive(const wire::MotorCommand& sample, const dds::SampleInfo& info);
-  void ForgetDeparted();
   // Sets the participant whose commands count for the vehicle from now on.
   void FollowOwner(VehicleId vehicle);
   template <typename Scan>
@@ -97,7 +94,6 @@ struct WorldLink::Impl {
   std::vector<QosEvent> discarded;
   std::vector<Refusal> refusals;
   WorldLinkCounters counters;
-  std::uint32_t turns = 0;
   std::uint32_t strangers = 0;  // commands
 };
 
@@ -197,17 +193,9 @@ std::vector<JoinRequest> WorldLink::TakeJoins() {
   return joins;
 }
 
-// Of a reader with a deadline its listener removes them, which alone knows when it may.
-void WorldLink::Impl::ForgetDeparted() {
-  if (++turns % kForgetEvery != 0) return;
-  if (NanosecondsOf(command_reader.Entity().get_qos().deadline().period) == kInfiniteDuration) {
-    RemoveDeparted<wire::MotorCommand>(command_reader.Entity(), dds::HANDLE_NIL);
-  }
-}
-
 std::span<const MotorCommand> WorldLink::TakeCommands() {
   impl_->FollowDiscovery();
-  impl_->ForgetDeparted();
+  impl_->command_reader.ForgetDeparted();
   impl_->commands.clear();
   impl_->taken_at = std::chrono::system_clock::now();
   impl_->command_reader.TakeEach(

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "services/link/observer_link.h"
 #include "services/link/operator_link.h"
 #include "services/link/world_link.h"
 #include "tests/link/fleet.h"
@@ -160,6 +161,20 @@ TEST(Admin, ADeadlineThatWasChangedIsTheOneThatHolds) {
   }));
   // The last sample came a moment before.
   EXPECT_GE(std::chrono::steady_clock::now() - silent_since, kLonger - milliseconds(100));
+}
+
+// `qos apply` may lengthen what the vehicles agree on: who only observes loses none of them by
+// that.
+TEST(Admin, AnObserverHearsAVehicleWhateverDeadlineItOffers) {
+  const DomainLock domain;
+  Beaconing sender(OptionsIn(domain), VehicleId{1});
+  ASSERT_TRUE(
+      sender.Link().SetDeadline("fleet_beacon_writer", Nanoseconds(milliseconds(2000)).count()));
+  link::ObserverLink observer(OptionsIn(domain));
+  EXPECT_TRUE(Eventually([&] {
+    sender.Send();
+    return !observer.Take().beacons.empty();
+  }));
 }
 
 // One profile with the same values a hundred times: the answer would not fit on the wire.

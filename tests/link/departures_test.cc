@@ -209,6 +209,35 @@ TEST(Departures, OfVehiclesWhoseHistoryWasAllNewLeaveNoInstance) {
   EXPECT_TRUE(Eventually([&] { return missed_of_four() <= 1; }, seconds(5)));
 }
 
+// As an observer hears them. No timer finds them there, and no listener removes them.
+TEST(Departures, OfVehiclesHeardWithoutADeadlineLeaveNoInstance) {
+  const DomainLock domain;
+  link::LinkOptions options = OptionsIn(domain);
+  options.requests_no_times = true;
+  RawListener listener(options);
+  {
+    RawSender one(options, "main/v1");
+    RawSender two(options, "main/v2");
+    ASSERT_TRUE(Eventually([&, seq = 0U]() mutable {
+      ++seq;
+      one.Send(link::ToWire(BeaconFrom(VehicleId{1}, seq).beacon));
+      two.Send(link::ToWire(BeaconFrom(VehicleId{2}, seq).beacon));
+      listener.Listen();
+      return listener.Vehicles().size() == 2;
+    }));
+    Repeat(milliseconds(400), [&] { listener.Listen(); });
+  }
+  EXPECT_EQ(listener.EventCount(QosEventKind::kDeadlineMissed), 0U);
+  EXPECT_EQ(listener.EventCount(QosEventKind::kLivelinessLost), 0U);
+  ASSERT_TRUE(Eventually([&] {
+    listener.FollowMatches();
+    return listener.Matched() == 0;
+  }));
+  EXPECT_EQ(listener.Departed(), 2U);
+  for (int turn = 0; turn < 40; ++turn) listener.Listen();
+  EXPECT_EQ(listener.Departed(), 0U);
+}
+
 // Issue 21, number 22: the library removed the instance that its timer was set for, and no deadline
 // of the reader was watched any more.
 TEST(Departures, OfAVehicleThatWasNotHeardToTheEndLeavesTheDeadlinesWatched) {

@@ -76,6 +76,17 @@ class RawListener {
                       [kind](const QosEvent& event) { return event.kind == kind; }));
   }
   std::uint32_t Matched() const { return peers_.MatchedWriters(); }
+  // Instances that the reader still has of those that are gone.
+  std::size_t Departed() {
+    std::set<link::dds::InstanceHandle_t> departed;
+    const link::Loan<wire::Beacon> loan(reader_.Entity(), [this](auto& samples, auto& infos) {
+      return reader_.Entity().read(samples, infos, link::dds::LENGTH_UNLIMITED,
+                                   link::dds::ANY_SAMPLE_STATE, link::dds::ANY_VIEW_STATE,
+                                   link::dds::NOT_ALIVE_INSTANCE_STATE);
+    });
+    for (int i = 0; i < loan.Size(); ++i) departed.insert(loan.Info(i).instance_handle);
+    return departed.size();
+  }
   std::uint32_t Superseded() { return inbox_.Superseded(); }
   std::uint32_t Unbound() const { return inbox_.Unbound(); }
   std::uint32_t Unreadable() const { return inbox_.Unreadable(); }

@@ -25,6 +25,7 @@
 #include "services/fleetctl/output/output_file.h"
 #include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/process/program_id.h"
 #include "services/runtime/process.h"
 #include "sim_world/virtual/generators.h"
 

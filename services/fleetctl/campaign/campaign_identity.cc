@@ -1,13 +1,11 @@
 #include "services/fleetctl/campaign/campaign_identity.h"
 
-#include <elf.h>
 #include <fmt/format.h>
-#include <link.h>
 
 #include <cstdint>
-#include <cstring>
 #include <string_view>
 
+#include "services/fleetctl/output/shell_word.h"
 #include "services/types/state_hash.h"
 
 namespace giveway::fleetctl {
@@ -26,52 +24,7 @@ std::string RangeText(const Range& range) {
                                  : fmt::format("{}..{}", range.low, range.high);
 }
 
-std::size_t Padded(std::size_t bytes) { return (bytes + 3) & ~std::size_t{3}; }
-
-// The build id among the notes; they are aligned to four bytes.
-std::string BuildIdIn(const char* notes, std::size_t size) {
-  std::string id;
-  for (std::size_t at = 0; at + sizeof(ElfW(Nhdr)) <= size;) {
-    ElfW(Nhdr) note;
-    std::memcpy(&note, notes + at, sizeof note);
-    const std::size_t name = at + sizeof note;
-    const std::size_t content = name + Padded(note.n_namesz);
-    if (content + note.n_descsz > size) break;
-    if (note.n_type == NT_GNU_BUILD_ID && note.n_namesz == 4 &&
-        std::memcmp(notes + name, "GNU", 4) == 0) {
-      for (std::size_t i = 0; i < note.n_descsz; ++i) {
-        id += fmt::format("{:02x}", static_cast<unsigned char>(notes[content + i]));
-      }
-      return id;
-    }
-    at = content + Padded(note.n_descsz);
-  }
-  return id;
-}
-
-// Called for the program first, then for each library: 1 stops the iteration.
-int ReadBuildId(dl_phdr_info* object, std::size_t /*size*/, void* found) {
-  for (int i = 0; i < object->dlpi_phnum; ++i) {
-    const ElfW(Phdr)& part = object->dlpi_phdr[i];
-    if (part.p_type != PT_NOTE) continue;
-    // The loader gives addresses as numbers. NOLINTNEXTLINE(performance-no-int-to-ptr)
-    const auto* notes = reinterpret_cast<const char*>(object->dlpi_addr + part.p_vaddr);
-    const std::string id = BuildIdIn(notes, part.p_memsz);
-    if (!id.empty()) *static_cast<std::string*>(found) = id;
-  }
-  return 1;
-}
-
 }  // namespace
-
-std::string ShellWord(const std::string& text) {
-  constexpr std::string_view kPlain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./+,:@%";
-  if (text.find_first_not_of(kPlain) == std::string::npos) return text;
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
 
 std::string CanonicalText(const CampaignPlan& plan) {
   std::string text = fmt::format("campaign {}\n", plan.name);
@@ -115,12 +68,6 @@ std::string FlagsOf(const CampaignPlan& plan) {
   if (!plan.fault_file.empty()) flags += " --faults " + ShellWord(plan.fault_file);
   if (plan.skip_unsupported) flags += " --skip-unsupported";
   return flags;
-}
-
-std::string ProgramId() {
-  std::string id;
-  ::dl_iterate_phdr(ReadBuildId, &id);
-  return id;
 }
 
 }  // namespace giveway::fleetctl

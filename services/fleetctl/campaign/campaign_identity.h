@@ -18,11 +18,4 @@ std::string PlanHash(const CampaignPlan& plan);
 // blank.
 std::string FlagsOf(const CampaignPlan& plan);
 
-// Quoted as one word of a shell.
-std::string ShellWord(const std::string& text);
-
-// The GNU build id of the running program, in hex digits: the linker's hash of its content, which
-// does not change when it is stripped or copied. Empty if it was linked without one.
-std::string ProgramId();
-
 }  // namespace giveway::fleetctl

@@ -7,6 +7,7 @@
 
 #include "services/fleetctl/campaign/campaign_identity.h"
 #include "services/fleetctl/campaign/campaign_schema.h"
+#include "services/fleetctl/output/shell_word.h"
 #include "services/report/violations.h"
 
 namespace giveway::fleetctl {

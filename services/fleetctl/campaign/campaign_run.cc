@@ -6,6 +6,7 @@
 
 #include "services/config/problem.h"
 #include "services/fleetctl/campaign/campaign_identity.h"
+#include "services/fleetctl/process/program_id.h"
 #include "services/fleetctl/virtual/virtual_workers.h"
 
 namespace giveway::fleetctl {

@@ -33,8 +33,12 @@ std::string FormatAccounting(const SoakResult& result) {
 
 std::string FormatVersion(const SoakVersions& versions) {
   const auto known = [](const std::string& text) { return text.empty() ? "unknown" : text; };
-  return fmt::format("commit {}, Fast DDS {}, kernel {}, {} cores", known(versions.project_commit),
-                     known(versions.fast_dds), known(versions.kernel), versions.host_cores);
+  std::string text;
+  for (const SoakProgram& program : versions.programs) {
+    text += fmt::format("{} {}, ", program.name, known(program.build_id.substr(0, 12)));
+  }
+  return text + fmt::format("Fast DDS {}, kernel {}, {} cores", known(versions.fast_dds),
+                            known(versions.kernel), versions.host_cores);
 }
 
 std::string FormatFaults(const SoakResult& result) {

@@ -167,8 +167,13 @@ void ReadHead(const schema::SoakReport& message, SoakResult* result, Complaints*
   result->faults_file = message.faults_file();
   result->qos_set = message.qos_set();
   result->qos_hash = message.qos_hash();
-  result->versions = {message.versions().project_commit(), message.versions().fast_dds(),
-                      message.versions().kernel(), message.versions().host_cores()};
+  result->versions = {{},
+                      message.versions().fast_dds(),
+                      message.versions().kernel(),
+                      message.versions().host_cores()};
+  for (const auto& program : message.versions().programs()) {
+    result->versions.programs.push_back({program.name(), program.build_id()});
+  }
   result->command = message.command();
 }
 

@@ -28,10 +28,15 @@ enum class SoakVerdict : std::uint8_t {
   kInterrupted,  // ended early, on request; no promise was broken before
 };
 
+struct SoakProgram {
+  std::string name;      // "giveway-vehicle"
+  std::string build_id;  // see program_id.h; empty: it has none
+};
+
 struct SoakVersions {
-  std::string project_commit;  // empty: not known
-  std::string fast_dds;        // "2.11.2"
-  std::string kernel;          // as uname -r
+  std::vector<SoakProgram> programs;
+  std::string fast_dds;  // "2.11.2"
+  std::string kernel;    // as uname -r
   std::uint32_t host_cores = 0;
 };
 

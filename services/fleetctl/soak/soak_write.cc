@@ -140,7 +140,11 @@ void WriteHead(const SoakResult& result, schema::SoakReport* message) {
   message->set_faults_file(WellFormed(result.faults_file));
   message->set_qos_set(WellFormed(result.qos_set));
   message->set_qos_hash(WellFormed(result.qos_hash));
-  message->mutable_versions()->set_project_commit(WellFormed(result.versions.project_commit));
+  for (const SoakProgram& program : result.versions.programs) {
+    auto* written = message->mutable_versions()->add_programs();
+    written->set_name(WellFormed(program.name));
+    written->set_build_id(WellFormed(program.build_id));
+  }
   message->mutable_versions()->set_fast_dds(WellFormed(result.versions.fast_dds));
   message->mutable_versions()->set_kernel(WellFormed(result.versions.kernel));
   message->mutable_versions()->set_host_cores(result.versions.host_cores);

@@ -37,9 +37,13 @@ class AnchoredReader {
     }
     if (most_held_ + 1 >= depth_) KeepAnchors();
   }
+  // Removes what is gone from a reader without a deadline, at every 32nd turn; with one its
+  // listener does that, which alone knows when it may.
+  void ForgetDeparted();
   dds::DataReader& Entity() const { return reader_; }
 
  private:
+  static constexpr std::uint32_t kForgetEvery = 32;  // turns
   // A history of one sample cannot hold another next to the anchor.
   static constexpr std::int32_t kLeastDepth = 2;
 
@@ -113,6 +117,7 @@ class AnchoredReader {
   std::int32_t depth_ = kLeastDepth;      // of a history that keeps all: trimmed at every turn
   std::set<dds::InstanceHandle_t> read_;  // since anchors were all that is kept
   std::int32_t most_held_ = 1;            // of one instance, at most, of what has been read
+  std::uint32_t turns_ = 0;
 };
 
 // Removes the instances of a reader that are not alive and were drained by AnchoredReader, all but
@@ -139,6 +144,14 @@ void RemoveDeparted(dds::DataReader& reader, const dds::InstanceHandle_t& kept) 
       });
     }
   }
+}
+
+template <typename Wire>
+void AnchoredReader<Wire>::ForgetDeparted() {
+  if (++turns_ % kForgetEvery != 0) return;
+  const Duration none = dds::DeadlineQosPolicy().period;
+  if (reader_.get_qos().deadline().period.seconds != none.seconds) return;
+  RemoveDeparted<Wire>(reader_, dds::HANDLE_NIL);
 }
 
 }  // namespace giveway::link

@@ -27,6 +27,9 @@ struct LinkOptions {
   // this process does nothing else.
   std::vector<ServerAddress> server_addresses = {};
   bool hears_all_bodies = false;  // observers: truth of the whole fleet
+  // Readers request neither a deadline nor a lease, whatever the profile set says: the library then
+  // sets no timer with every sample that comes.
+  bool requests_no_times = false;
   // Only the profile set's UDP is left. Set once the files of shared memory were deleted: the
   // library removes files by name as participants end, and would remove new files of the same name.
   bool leaves_out_shared_memory = false;

@@ -23,6 +23,7 @@ void BeaconInbox::Drain(SteadyTime now, std::vector<ReceivedBeacon>& beacons,
   reader_.TakeEach([&](const wire::Beacon& sample, const dds::SampleInfo& info) {
     Receive(sample, info, now, beacons, lost);
   });
+  reader_.ForgetDeparted();
 }
 
 void BeaconInbox::Receive(const wire::Beacon& sample, const dds::SampleInfo& info, SteadyTime now,

@@ -17,8 +17,9 @@ namespace giveway::link {
 
 class BeaconInbox {
  public:
-  // Beacons of writers with the prefix `own` are left out: a reader hears its own participant. The
-  // reader's listener removes departed vehicles: ReaderEvents with RemoveDeparted. `arrivals` is of
+  // Beacons of writers with the prefix `own` are left out: a reader hears its own participant. Of a
+  // reader with a deadline its listener must remove departed vehicles: ReaderEvents with
+  // RemoveDeparted. `arrivals` is of
   // the reader's filter and outlives this; without it beacons say nothing of their arrival.
   BeaconInbox(Reader<wire::Beacon> reader, WriterNames& names, const rtps::GuidPrefix_t& own,
               ArrivalLog* arrivals = nullptr);

@@ -1,7 +1,6 @@
 #include "services/fleetctl/soak/verb/soak.h"
 
 #include <fmt/format.h>
-#include <sys/utsname.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -10,7 +9,6 @@
 #include <iterator>
 #include <optional>
 #include <set>
-#include <thread>
 #include <utility>
 
 #include "services/config/faults/faults_file.h"
@@ -41,10 +39,10 @@
 #include "services/fleetctl/soak/soak_page.h"
 #include "services/fleetctl/soak/soak_session.h"
 #include "services/fleetctl/soak/soak_verdict.h"
+#include "services/fleetctl/soak/verb/soak_origin.h"
 #include "services/fleetctl/soak/verb/soak_resume.h"
 #include "services/fleetctl/soak/verb/soak_virtual.h"
 #include "services/fleetctl/stopwatch/stopwatch_limits.h"
-#include "services/link/fastdds/library_release.h"
 #include "services/runtime/state_writer.h"
 
 namespace giveway::fleetctl {
@@ -271,28 +269,6 @@ void RefuseServersThatCannotStart(const SoakOptions& options) {
   if (!why.empty()) throw StartError("--discovery-servers: " + why);
 }
 
-std::string CommandLine(const SoakOptions& options) {
-  std::string line = fmt::format(
-      "fleetctl soak {} --faults {} --duration {:g} --seed {} --report {}", options.scenario,
-      options.faults, options.duration_s, options.seed, options.report_folder);
-  if (options.vehicles) line += fmt::format(" --vehicles {}", *options.vehicles);
-  if (!options.qos_file.empty()) line += " --qos " + options.qos_file;
-  if (options.discovery_servers > 0) {
-    line += fmt::format(" --discovery-servers {}", options.discovery_servers);
-  }
-  if (!options.attacker.empty()) line += " --attacker " + options.attacker;
-  if (options.skip_unsupported) line += " --skip-unsupported";
-  if (options.record) line += " --record";
-  if (options.in_virtual_time) line += " --virtual";
-  if (options.ring_s > 0) line += fmt::format(" --record-ring {}", options.ring_s);
-  return line;
-}
-
-// "2.9.1" of "Fast DDS 2.9.1".
-std::string WithoutName(std::string_view library) {
-  return std::string(library.substr(library.rfind(' ') + 1));
-}
-
 SoakResult BlankResult(const SoakOptions& options, const Prepared& prepared, std::uint32_t domain) {
   SoakResult result;
   result.scenario = prepared.scenario.name;
@@ -306,10 +282,7 @@ SoakResult BlankResult(const SoakOptions& options, const Prepared& prepared, std
   result.qos_set = prepared.qos_file;
   result.skipped_faults = prepared.skipped;
   result.command = CommandLine(options);
-  utsname system{};
-  if (::uname(&system) == 0) result.versions.kernel = system.release;
-  result.versions.fast_dds = WithoutName(link::LibraryName());
-  result.versions.host_cores = std::thread::hardware_concurrency();
+  result.versions = VersionsOf(ProgramFolder(), options.in_virtual_time);
   return result;
 }
 

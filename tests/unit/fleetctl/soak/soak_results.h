@@ -65,7 +65,7 @@ inline SoakResult SampleSoak(std::uint64_t seed) {
   result.faults_file = "everything";
   result.qos_set = "default";
   result.qos_hash = "0123456789abcdef";
-  result.versions = {"1b54d37", "2.9.1", "6.1.0", 2};
+  result.versions = {{{"fleetctl", "1b54d370a5c2"}}, "2.9.1", "6.1.0", 2};
   result.command = "fleetctl soak warehouse_loop --faults everything --duration 3m --seed 1";
   for (std::uint32_t nth = 0; nth < 24; ++nth) result.faults.push_back(SampleFault(nth, &random));
   for (int i = 0; i < 30; ++i) {
