@@ -8,12 +8,15 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr int kInterruptedCode = 1;  // the same as that of the verbs
+constexpr int kFirstSignalCode = 128;
 constexpr int kMostInterrupts = 2;
 constexpr unsigned kLongestSilence_s = 1;
 
 // Read by the verb's threads, written by whichever thread gets the signal.
 std::atomic<int> interrupt_count{0};
+std::atomic<int> first_signal{0};
 std::atomic<bool> is_watched{false};
+std::atomic<bool> exits_as_signal{false};
 static_assert(std::atomic<int>::is_always_lock_free);
 static_assert(std::atomic<bool>::is_always_lock_free);
 
@@ -21,17 +24,23 @@ void StartSecond() {
   if (is_watched) ::alarm(kLongestSilence_s);
 }
 
-void CountInterrupt(int /*signal_number*/) {
-  if (++interrupt_count > kMostInterrupts) ::_exit(kInterruptedCode);
+int HardExitCode() { return exits_as_signal ? kFirstSignalCode + first_signal : kInterruptedCode; }
+
+void CountInterrupt(int signal_number) {
+  int none = 0;
+  first_signal.compare_exchange_strong(none, signal_number);
+  if (++interrupt_count > kMostInterrupts) ::_exit(HardExitCode());
   StartSecond();
 }
 
-void EndSilent(int /*signal_number*/) { ::_exit(kInterruptedCode); }
+void EndSilent(int /*signal_number*/) { ::_exit(HardExitCode()); }
 
 }  // namespace
 
-Interrupts::Interrupts(Silence silence) {
+Interrupts::Interrupts(Silence silence, HardExit hard_exit) {
   interrupt_count = 0;
+  first_signal = 0;
+  exits_as_signal = hard_exit == HardExit::kAsSignal;
   is_watched = silence == Silence::kHangs;
   struct sigaction end {};
   end.sa_handler = EndSilent;
@@ -61,6 +70,8 @@ int Interrupts::Count() {
   if (count > 0) StartSecond();
   return count;
 }
+
+int Interrupts::SignalCode() { return kFirstSignalCode + first_signal; }
 
 void Interrupts::AllowSeconds(unsigned seconds) {
   if (interrupt_count > 0 && is_watched) ::alarm(seconds);

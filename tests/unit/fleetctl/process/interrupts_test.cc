@@ -43,5 +43,27 @@ TEST(InterruptsDeathTest, AVerbThatComputesIsEndedByTheThird) {
       testing::ExitedWithCode(kInterrupted), "");
 }
 
+// 1 would be a verdict of theirs: "an invariant is broken".
+TEST(InterruptsDeathTest, AVerbWithAVerdictIsEndedWithTheFirstSignalsCode) {
+  for (const int first : {SIGINT, SIGTERM}) {
+    EXPECT_EXIT(
+        {
+          const Interrupts interrupts(Silence::kComputes, HardExit::kAsSignal);
+          std::raise(first);
+          std::raise(SIGTERM);
+          std::raise(SIGTERM);
+          Hang();
+        },
+        testing::ExitedWithCode(128 + first), "");
+  }
+}
+
+TEST(Interrupts, KnowTheFirstSignal) {
+  const Interrupts interrupts(Silence::kComputes, HardExit::kAsSignal);
+  std::raise(SIGINT);
+  std::raise(SIGTERM);
+  EXPECT_EQ(Interrupts::SignalCode(), 128 + SIGINT);
+}
+
 }  // namespace
 }  // namespace giveway::fleetctl
