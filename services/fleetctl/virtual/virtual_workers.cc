@@ -40,17 +40,30 @@ void WorkUntilDone(std::uint64_t count, const std::function<void(std::uint64_t)>
   workers->changed.notify_one();
 }
 
+// Starts up to `jobs` threads. With fewer the work takes longer, which is no reason to give it up.
+// Throws if not even one can be started.
+void StartWorkers(std::uint32_t jobs, const std::function<void()>& run, Workers* workers,
+                  std::vector<std::jthread>* threads) {
+  threads->reserve(jobs);
+  workers->working = jobs;
+  try {
+    while (threads->size() < jobs) threads->emplace_back(run);
+  } catch (const std::exception&) {  // no thread, or no memory for it
+    if (threads->empty()) throw;
+    const std::lock_guard lock(workers->mutex);
+    workers->working -= jobs - static_cast<std::uint32_t>(threads->size());
+  }
+}
+
 }  // namespace
 
 void RunOnThreads(std::uint64_t count, std::uint32_t jobs,
                   const std::function<void(std::uint64_t)>& work,
                   const std::function<bool()>& progress) {
   Workers workers;
-  workers.working = jobs;
   std::vector<std::jthread> threads;
-  for (std::uint32_t i = 0; i < jobs; ++i) {
-    threads.emplace_back([&] { WorkUntilDone(count, work, &workers); });
-  }
+  StartWorkers(
+      jobs, [&] { WorkUntilDone(count, work, &workers); }, &workers, &threads);
   bool ended = false;
   while (!ended) {
     {
