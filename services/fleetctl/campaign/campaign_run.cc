@@ -1,5 +1,6 @@
 #include "services/fleetctl/campaign/campaign_run.h"
 
+#include <atomic>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -32,10 +33,21 @@ CaseOptions OptionsOf(const CampaignPlan& plan, const std::string& generator) {
   return options;
 }
 
-BatchTotals RunOne(const CaseMaker& maker, std::uint32_t seed) {
+struct RunStopped {};
+
+// nullopt if it was stopped.
+std::optional<BatchTotals> RunOne(const CaseMaker& maker, std::uint32_t seed,
+                                  const std::atomic<bool>& stop) {
   const VirtualCase made = maker.Make(seed);
+  const auto watch = [&stop](const sim::VirtualFleet&) {
+    if (stop) throw RunStopped{};
+  };
   BatchTotals totals;
-  totals.Add(seed, sim::RunVirtually(made.scenario, made.plan), maker.HasExpectations());
+  try {
+    totals.Add(seed, sim::RunVirtually(made.scenario, made.plan, watch), maker.HasExpectations());
+  } catch (const RunStopped&) {
+    return std::nullopt;
+  }
   return totals;
 }
 
@@ -80,16 +92,20 @@ std::optional<ShardResult> RunShard(const CampaignMaker& maker, const ShardOf& s
   }
   std::mutex mutex;
   std::uint32_t done = 0;
+  std::atomic<bool> stop = false;
   const auto work = [&](std::uint64_t place) {
     const CampaignRun run = runs.At(static_cast<std::uint32_t>(place));
-    const BatchTotals totals = RunOne(maker.Of(run.generator), run.seed);
+    const auto totals = RunOne(maker.Of(run.generator), run.seed, stop);
+    if (!totals) return;
     const std::lock_guard lock(mutex);
-    result.generators[run.generator].Add(totals);
+    result.generators[run.generator].Add(*totals);
     ++done;
   };
   RunOnThreads(runs.Count(), jobs, work, [&] {
     const std::lock_guard lock(mutex);
-    return progress(done, runs.Count());
+    const bool proceeds = progress(done, runs.Count());
+    if (!proceeds) stop = true;
+    return proceeds;
   });
   if (done < runs.Count()) return std::nullopt;
   return result;

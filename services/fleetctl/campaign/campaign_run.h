@@ -28,7 +28,8 @@ class CampaignMaker {
   std::string remark_;
 };
 
-// nullopt if it was stopped: half a shard has no result.
+// nullopt if it was stopped: half a shard has no result. A run that is stopped ends within a tick:
+// runs of large fleets take seconds.
 std::optional<ShardResult> RunShard(const CampaignMaker& maker, const ShardOf& shard,
                                     std::uint32_t jobs, const CampaignProgress& progress);
 

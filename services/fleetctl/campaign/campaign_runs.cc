@@ -5,14 +5,22 @@
 namespace giveway::fleetctl {
 
 ShardRuns::ShardRuns(const CampaignPlan& plan, const ShardOf& shard)
-    : first_seed_(plan.seeds.low), left_over_(plan.SeedCount() % shard.of), shard_(shard) {
-  const std::uint32_t seeds = plan.SeedCount();
+    : ShardRuns(plan.SeedCount(), plan.generators.size(), shard) {
+  first_seed_ = plan.seeds.low;
+}
+
+ShardRuns::ShardRuns(std::uint32_t seeds, std::size_t generators, const ShardOf& shard)
+    : left_over_(seeds % shard.of), shard_(shard) {
   std::uint32_t end = 0;
-  for (std::uint32_t generator = 0; generator < plan.generators.size(); ++generator) {
-    const std::uint32_t first = FirstOf(generator);
+  for (std::size_t generator = 0; generator < generators; ++generator) {
+    const std::uint32_t first = FirstOf(static_cast<std::uint32_t>(generator));
     if (first < seeds) end += (seeds - 1 - first) / shard.of + 1;
     ends_.push_back(end);
   }
+}
+
+std::uint32_t ShardRuns::CountOf(std::size_t generator) const {
+  return ends_[generator] - (generator == 0 ? 0 : ends_[generator - 1]);
 }
 
 std::uint32_t ShardRuns::FirstOf(std::uint32_t generator) const {

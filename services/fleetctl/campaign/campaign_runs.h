@@ -3,6 +3,7 @@
 // of early and late seeds, and all take about the same time. Pure.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -26,8 +27,11 @@ struct CampaignRun {
 class ShardRuns {
  public:
   ShardRuns(const CampaignPlan& plan, const ShardOf& shard);
+  // The same of generators with so many seeds each, from 0. `shard` must be one that there is.
+  ShardRuns(std::uint32_t seeds, std::size_t generators, const ShardOf& shard);
 
   std::uint32_t Count() const { return ends_.empty() ? 0 : ends_.back(); }
+  std::uint32_t CountOf(std::size_t generator) const;
   CampaignRun At(std::uint32_t place) const;  // place: below Count()
 
  private:
@@ -35,7 +39,7 @@ class ShardRuns {
   // to the shards after those that got the previous generator's.
   std::uint32_t FirstOf(std::uint32_t generator) const;
 
-  std::uint32_t first_seed_;
+  std::uint32_t first_seed_ = 0;
   std::uint32_t left_over_;  // of a generator's seeds, once all shards have equally many
   ShardOf shard_;
   std::vector<std::uint32_t> ends_;  // by generator: how many runs there are up to its last

@@ -11,6 +11,7 @@
 
 #include "services/config/problem.h"
 #include "services/fleetctl/campaign/campaign_index.h"
+#include "services/fleetctl/campaign/campaign_run.h"
 #include "tests/unit/fleetctl/campaign/campaign_plans.h"
 
 namespace giveway::fleetctl {
@@ -27,12 +28,15 @@ RC_GTEST_PROP(CampaignRuns, HoldEveryRunExactlyOnce, ()) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
   for (std::uint32_t index = 0; index < of; ++index) {
     const ShardRuns runs(plan, {index, of});
+    std::vector<std::uint32_t> counts(plan.generators.size());
     for (std::uint32_t place = 0; place < runs.Count(); ++place) {
       const CampaignRun run = runs.At(place);
+      ++counts[run.generator];
       RC_ASSERT(run.generator < plan.generators.size());
       RC_ASSERT(run.seed >= plan.seeds.low && run.seed <= plan.seeds.high);
       RC_ASSERT(seen.emplace(run.generator, run.seed).second);
     }
+    for (std::size_t i = 0; i < counts.size(); ++i) RC_ASSERT(runs.CountOf(i) == counts[i]);
   }
   RC_ASSERT(seen.size() == plan.Runs());
 }
@@ -61,6 +65,17 @@ TEST(CampaignRuns, GoToTheEndOfWhatASeedCanBe) {
   const ShardRuns runs(plan, {0, 1});
   ASSERT_EQ(runs.Count(), 18U);
   EXPECT_EQ(runs.At(17).seed, 4294967295U);
+}
+
+// Its one run takes longer than it takes to notice the stop, so only a run that is cut ends without
+// a result.
+TEST(CampaignRun, IsCutShortWithinARun) {
+  CampaignPlan plan = SmallCampaign();
+  plan.generators = {"swarm"};
+  plan.seeds = {1, 1};
+  plan.vehicles = CampaignWholes{50, 50};
+  const auto stop = [](std::uint32_t, std::uint32_t) { return false; };
+  EXPECT_FALSE(RunShard(CampaignMaker(plan), {0, 1}, 1, stop));
 }
 
 Environment Says(std::vector<std::pair<std::string, std::string>> variables) {
