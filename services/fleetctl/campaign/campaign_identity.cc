@@ -3,20 +3,12 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <string_view>
 
 #include "services/fleetctl/output/shell_word.h"
 #include "services/types/state_hash.h"
 
 namespace giveway::fleetctl {
 namespace {
-
-// FNV-1a, as for every other printed hash.
-std::string HashOf(std::string_view text) {
-  StateHash hash;
-  for (const char c : text) hash.Add(std::uint64_t{static_cast<unsigned char>(c)});
-  return fmt::format("{:016x}", hash.Value());
-}
 
 template <typename Range>
 std::string RangeText(const Range& range) {
@@ -25,6 +17,12 @@ std::string RangeText(const Range& range) {
 }
 
 }  // namespace
+
+std::string HashOf(std::string_view bytes) {
+  StateHash hash;
+  for (const char c : bytes) hash.Add(std::uint64_t{static_cast<unsigned char>(c)});
+  return fmt::format("{:016x}", hash.Value());
+}
 
 std::string CanonicalText(const CampaignPlan& plan) {
   std::string text = fmt::format("campaign {}\n", plan.name);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "services/fleetctl/campaign/campaign_identity.h"
 #include "services/fleetctl/campaign/campaign_schema.h"
 #include "services/report/violations.h"
 #include "services/runtime/utf8.h"
@@ -117,6 +118,29 @@ CampaignSums SumsFrom(const schema::CampaignSums& message, ShardComplaints* comp
   return sums;
 }
 
+// Of the values and not of the text, so that a result may be printed again by another program.
+std::string ChecksumOf(schema::CampaignShard message) {
+  message.clear_checksum();
+  return HashOf(message.SerializeAsString());
+}
+
+// A shard has as many runs of each generator as are dealt to it: those of another, or a part, are
+// not its result. The shard's number is valid.
+void CheckDeal(const ShardResult& result, ShardComplaints* complaints) {
+  const std::size_t generators = result.generators.size();
+  complaints->Unless(generators > 0 && result.planned_runs % generators == 0,
+                     "planned_runs is not the same number for each generator");
+  if (!complaints->Text().empty()) return;
+  const auto seeds = static_cast<std::uint32_t>(result.planned_runs / generators);
+  const ShardRuns dealt(seeds, generators, result.shard);
+  for (std::size_t i = 0; i < generators; ++i) {
+    const CampaignSums& sums = result.generators[i];
+    complaints->Unless(sums.runs == dealt.CountOf(i),
+                       fmt::format("{}: {} runs; shard {} of {} has {}", sums.generator, sums.runs,
+                                   result.shard.index, result.shard.of, dealt.CountOf(i)));
+  }
+}
+
 }  // namespace
 
 std::string JsonLine(const google::protobuf::Message& message) {
@@ -149,6 +173,7 @@ std::string ToJson(const ShardResult& result) {
   message.set_planned_runs(result.planned_runs);
   message.set_flags(WellFormed(result.flags));
   for (const CampaignSums& sums : result.generators) WriteSums(sums, message.add_generators());
+  message.set_checksum(ChecksumOf(message));
   return JsonLine(message);
 }
 
@@ -184,6 +209,11 @@ ReadShard ShardFromJson(std::string_view json) {
                       "\"" + name + "\" is no generator");
     result.generators.push_back(SumsFrom(sums, &complaints));
   }
+  if (complaints.Text().empty()) CheckDeal(result, &complaints);
+  complaints.Unless(message.checksum() == ChecksumOf(message),
+                    message.checksum().empty()
+                        ? "it has no checksum"
+                        : "its checksum is of other contents: it was damaged or edited");
   read.complaint = complaints.Text();
   return read;
 }

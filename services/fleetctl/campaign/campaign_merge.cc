@@ -8,7 +8,8 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr std::size_t kMostPieces = 20;
+// Some pages of a terminal: enough to run all of them again in any cut but the oddest.
+constexpr std::size_t kMostPieces = 1000;
 
 // Why `other` cannot be of the same campaign as `first`; nothing if it can.
 void CompareIdentity(const NamedShard& first, const NamedShard& other, ProblemList* problems) {
@@ -61,12 +62,14 @@ void FindLacking(const NamedShard& first, const std::map<std::uint32_t, std::str
     if (!brought.contains(index)) lacking.push_back(index);
   }
   if (lacking.empty()) return;
-  problems->Add({.file = first.result.campaign,
-                 .field = "index",
-                 .value = NumbersInWords(lacking),
-                 .message = fmt::format("lacks: {} of {} shards", lacking.size(), of),
-                 .remedy = fmt::format("fleetctl campaign shard PLAN --of {} --index {}", of,
-                                       lacking.front())});
+  problems->Add(
+      {.file = first.result.campaign,
+       .field = "index",
+       .value = NumberRanges(lacking),
+       .message = fmt::format("lacks: {} of {} shards", lacking.size(), of),
+       .remedy = fmt::format("run each of them by the same fleetctl: campaign shard PLAN "
+                             "--of {} --index {}; PLAN is that of the name {} and hash {}",
+                             of, lacking.front(), first.result.campaign, first.result.plan)});
 }
 
 void AddShard(const ShardResult& shard, CampaignResult* result) {
@@ -91,19 +94,19 @@ void CheckRuns(const CampaignResult& result, std::uint32_t planned, ProblemList*
 
 }  // namespace
 
-std::string NumbersInWords(const std::vector<std::uint32_t>& ascending) {
-  std::string words;
+std::string NumberRanges(const std::vector<std::uint32_t>& ascending) {
+  std::string text;
   std::size_t pieces = 0;
   for (std::size_t i = 0; i < ascending.size();) {
     std::size_t last = i;
     while (last + 1 < ascending.size() && ascending[last + 1] == ascending[last] + 1) ++last;
-    if (++pieces > kMostPieces) return words + fmt::format(" and {} more", ascending.size() - i);
-    words += words.empty() ? "" : ", ";
-    words += last == i ? fmt::format("{}", ascending[i])
-                       : fmt::format("{} to {}", ascending[i], ascending[last]);
+    if (++pieces > kMostPieces) return text + fmt::format(" and {} more", ascending.size() - i);
+    text += text.empty() ? "" : ",";
+    text += last == i ? fmt::format("{}", ascending[i])
+                      : fmt::format("{}-{}", ascending[i], ascending[last]);
     i = last + 1;
   }
-  return words;
+  return text;
 }
 
 MergedCampaign MergeShards(const std::vector<NamedShard>& shards) {

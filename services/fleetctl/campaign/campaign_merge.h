@@ -23,7 +23,7 @@ struct MergedCampaign {
 // A result that differs from the first is of another campaign.
 MergedCampaign MergeShards(const std::vector<NamedShard>& shards);
 
-// "2, 5 to 7, 9": ascending numbers for people, at most some twenty pieces.
-std::string NumbersInWords(const std::vector<std::uint32_t>& ascending);
+// "2,5-7,9", as sbatch --array takes them: ascending numbers, at most a thousand pieces.
+std::string NumberRanges(const std::vector<std::uint32_t>& ascending);
 
 }  // namespace giveway::fleetctl

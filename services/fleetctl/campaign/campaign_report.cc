@@ -50,6 +50,11 @@ std::string CommandOf(const CampaignResult& result, const CampaignSums& sums, st
                      result.flags);
 }
 
+// Failed runs beyond those whose seeds are kept.
+std::uint32_t LeftOut(const CampaignSums& sums) {
+  return sums.failed_runs - static_cast<std::uint32_t>(sums.failing_seeds.size());
+}
+
 std::string TableRow(const CampaignSums& sums) {
   const auto mean = MeanDelay(sums);
   return fmt::format("{:<12}{:>9}{:>8}{:>10}{:>15.1f}{:>15}\n",
@@ -74,8 +79,10 @@ std::string ReportJson(const CampaignResult& result) {
   message.set_plan(result.plan);
   message.set_program(result.program);
   WriteFigures(all, message.mutable_all());
+  std::uint32_t left_out = 0;
   for (const CampaignSums& sums : result.generators) {
     WriteFigures(sums, message.add_generators());
+    left_out += LeftOut(sums);
     for (const std::uint32_t seed : sums.failing_seeds) {
       schema::CampaignFailure& failure = *message.add_failing();
       failure.set_generator(sums.generator);
@@ -83,6 +90,7 @@ std::string ReportJson(const CampaignResult& result) {
       failure.set_command(CommandOf(result, sums, seed));
     }
   }
+  message.set_failing_left_out(left_out);
   return JsonLine(message);
 }
 
@@ -97,10 +105,8 @@ std::string ReportText(const CampaignResult& result) {
   for (const CampaignSums& sums : result.generators) {
     for (const std::uint32_t seed : sums.failing_seeds)
       text += CommandOf(result, sums, seed) + "\n";
-    if (sums.failed_runs > sums.failing_seeds.size()) {
-      text += fmt::format("and {} more of {}\n", sums.failed_runs - sums.failing_seeds.size(),
-                          sums.generator);
-    }
+    if (LeftOut(sums) > 0)
+      text += fmt::format("and {} more of {}\n", LeftOut(sums), sums.generator);
   }
   return text;
 }

@@ -6,6 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "services/fleetctl/campaign/campaign_json.h"
 #include "services/fleetctl/campaign/campaign_report.h"
@@ -17,7 +18,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::Not;
 
 std::vector<NamedShard> ShardsOf(const CampaignPlan& plan, std::uint32_t of) {
   std::vector<NamedShard> shards;
@@ -54,6 +54,43 @@ TEST(CampaignShardJson, SaysAllThatIsWrong) {
   for (const char* text : {"", "{", "[]", "{\"format\":2}", "{}", "{\"format\":1,\"of\":\"x\"}"}) {
     EXPECT_NE(ShardFromJson(text).complaint, "") << text;
   }
+}
+
+// Each value of a result is covered: that of any other would pass for this one.
+TEST(CampaignShardJson, RefusesWhatWasEdited) {
+  const std::string json = ToJson(PretendedShard(SmallCampaign(), {1, 4}));
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {R"("index":1)", R"("index":2)"},
+           {R"("plan":")", R"("plan":"0)"},
+           {R"("contact":)", R"("contact":1)"},
+           {R"("flags":" )", R"("flags":"  )"},
+           {R"("delays":[)", R"("delays":[1)"},
+           {R"("min_separation_m":0)", R"("min_separation_m":1)"},
+           {R"("checksum":")", R"("checksum":"0)"}}) {
+    std::string edited = json;
+    const std::size_t at = edited.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    edited.replace(at, from.size(), to);
+    EXPECT_THAT(ShardFromJson(edited).complaint, HasSubstr("damaged or edited")) << from;
+  }
+  EXPECT_THAT(ShardFromJson(R"({"format":1})").complaint, HasSubstr("it has no checksum"));
+}
+
+// As jq -c writes it again.
+TEST(CampaignShardJson, MayBePrintedInAnotherForm) {
+  std::string json = ToJson(PretendedShard(SmallCampaign(), {1, 4}));
+  json.insert(json.find(",\"of\""), "  ");
+  EXPECT_EQ(ShardFromJson(json).complaint, "");
+}
+
+TEST(CampaignShardJson, RefusesTheSumsOfAnotherShard) {
+  // Of 69 runs shard 0 has 6, 6 and 6, shard 3 has 5, 6 and 6.
+  ShardResult mixed = PretendedShard(SmallCampaign(), {0, 4});
+  mixed.generators = PretendedShard(SmallCampaign(), {3, 4}).generators;
+  EXPECT_THAT(ShardFromJson(ToJson(mixed)).complaint, HasSubstr("crossing: 5 runs; shard 0 of 4"));
+  mixed = PretendedShard(SmallCampaign(), {0, 4});
+  mixed.planned_runs += 1;
+  EXPECT_THAT(ShardFromJson(ToJson(mixed)).complaint, HasSubstr("not the same number"));
 }
 
 RC_GTEST_PROP(CampaignMerge, IsTheSameHoweverItWasCutAndInWhateverOrder, ()) {
@@ -107,12 +144,28 @@ TEST(CampaignMerge, KeepsTheFirstFailingSeedsOfAll) {
   EXPECT_EQ(odd.failing_seeds.back(), 99U);
 }
 
+TEST(CampaignMerge, SaysHowManyFailingSeedsAreLeftOut) {
+  CampaignResult result;
+  result.generators.resize(2);
+  for (std::uint32_t seed = 0; seed < 130; ++seed) {
+    BatchTotals failed;
+    failed.runs = 1;
+    failed.failing_seeds = {seed};
+    result.generators[0].Add(failed);
+    if (seed < 103) result.generators[1].Add(failed);
+  }
+  EXPECT_THAT(ReportJson(result), HasSubstr(R"("failing_left_out":33)"));
+  EXPECT_THAT(ReportText(result), HasSubstr("and 30 more of"));
+}
+
 TEST(CampaignMerge, SaysWhichShardsLack) {
   std::vector<NamedShard> shards = ShardsOf(SmallCampaign(), 12);
   shards.erase(shards.begin() + 5, shards.begin() + 8);
   shards.erase(shards.begin() + 1);
   EXPECT_THAT(Refusal(shards),
-              AllOf(HasSubstr("1, 5 to 7"), HasSubstr("4 of 12"), HasSubstr("--of 12 --index 1")));
+              AllOf(HasSubstr("index = 1,5-7: "), HasSubstr("4 of 12"),
+                    HasSubstr("--of 12 --index 1; PLAN is that of the name small and hash " +
+                              PlanHash(SmallCampaign()))));
 }
 
 TEST(CampaignMerge, RefusesAShardTwice) {
@@ -235,11 +288,12 @@ TEST(CampaignShardJson, HasAScenarioAlone) {
 
 TEST(CampaignNumbers, AreBounded) {
   std::vector<std::uint32_t> odd;
-  for (std::uint32_t number = 1; number < 2000; number += 2) odd.push_back(number);
-  EXPECT_THAT(NumbersInWords(odd), HasSubstr("37, 39 and 980 more"));
-  EXPECT_EQ(NumbersInWords({0, 1, 2}), "0 to 2");
-  EXPECT_THAT(NumbersInWords({}), IsEmpty());
-  EXPECT_THAT(NumbersInWords({3}), Not(HasSubstr("to")));
+  for (std::uint32_t number = 1; number < 2200; number += 2) odd.push_back(number);
+  EXPECT_THAT(NumberRanges(odd), HasSubstr(",1997,1999 and 100 more"));
+  EXPECT_EQ(NumberRanges({0, 1, 2}), "0-2");
+  EXPECT_EQ(NumberRanges({2, 5, 6, 7, 9}), "2,5-7,9");
+  EXPECT_THAT(NumberRanges({}), IsEmpty());
+  EXPECT_EQ(NumberRanges({3}), "3");
 }
 
 }  // namespace
