@@ -33,6 +33,8 @@ refused() {
 # One process with two threads.
 campaign 0 "one shard" shard plan.textproto --of 1 --index 0 --jobs 2
 [[ $(wc -l <out) -eq 1 ]] || fail "one shard: $(wc -l <out) lines"
+# It would land inside the result in the log of a pod.
+[[ ! -s err ]] || fail "one shard: something on stderr, which is no terminal: $(<err)"
 mv out whole.log
 campaign 0 "merge of one" merge whole.log --json
 mv out whole.json
@@ -43,25 +45,13 @@ jq -e '.verdict == "passed" and .all.runs == 102 and (.generators | length) == 2
 [[ $(jq -r '.generators[1] | .hash, .min_separation_m, .delay_s.mean' whole.json) == \
   $(jq -r '.hash, .min_separation_m, .delay_s.mean' virtual.json) ]] || fail "not the runs of fleetctl virtual"
 
-# Four shards, each given its number by another engine; one of them is killed and run again.
+# Four shards, each given its number by another engine.
 JOB_COMPLETION_INDEX=0 campaign 0 "Kubernetes" shard plan.textproto --out results
+[[ ! -s err ]] || fail "Kubernetes: something on stderr: $(<err)"
 SLURM_ARRAY_TASK_ID=1 campaign 0 "Slurm" shard plan.textproto --out results
 PARALLEL_SEQ=3 campaign 0 "parallel" shard plan.textproto --out results
-sed 's/51/100051/' plan.textproto >long.textproto # certainly not over when it is killed
-for signal in KILL TERM; do
-  code=0
-  "$FLEETCTL" campaign shard long.textproto --index 3 --out results >killed.log 2>err &
-  killed=$!
-  sleep 0.5
-  kill -"$signal" "$killed"
-  wait "$killed" 2>/dev/null || code=$?
-  [[ $code -eq 137 || $code -eq 143 ]] || fail "killed by $signal: exit code $code"
-  [[ ! -s killed.log ]] || fail "killed by $signal: it printed a result"
-done
-[[ $(find results -type f | sort | tr '\n' ' ') == *0-of-4.json*1-of-4.json*2-of-4.json\  ]] ||
-  fail "a killed shard left files: $(ls -A results)"
 refused "a shard lacks" 'index = 3: lacks: 1 of 4 shards; .*--of 4 --index 3' merge results/*.json
-campaign 0 "run again" shard plan.textproto --index 3 --out results
+campaign 0 "the one that lacks" shard plan.textproto --index 3 --out results
 campaign 0 "merge of four" merge results/*.json --json
 cmp -s out whole.json || fail "four shards give another result: $(diff out whole.json)"
 campaign 0 "merge of four, for people" merge results/*.json
@@ -71,16 +61,69 @@ grep -Eq '^all +102 +0 +0 ' out || fail "for people: $(<out)"
 { echo "shard 1 of 4: words"; cat results/*.json; echo; } >pods.log
 campaign 0 "merge of a log" merge pods.log --json
 cmp -s out whole.json || fail "a log gives another result"
+{ cat results/small.[023]*; jq -c . results/small.1-of-4.json; } >by_jq.log
+campaign 0 "merge of what jq printed" merge by_jq.log --json
+cmp -s out whole.json || fail "jq gives another result"
+
+# A shard that is stopped, then run again. Its one run takes seconds.
+printf 'name: "slow"\ngenerator: "swarm"\nseeds: [1, 2]\nvehicles: 120\nshards: 2\n' >slow.textproto
+
+# handles_sigterm PID: waits until it does. From then on it must end as it says, and not as any program.
+handles_sigterm() {
+  local look handled
+  for ((look = 0; look < 400; ++look)); do
+    handled=$(awk '$1 == "Name:" && $2 != "fleetctl" { exit 1 }
+                  $1 == "SigCgt:" { print $2 }' "/proc/$1/status" 2>/dev/null) && ((16#$handled >> 14 & 1)) && return
+    sleep 0.02
+  done
+  fail "it never handled SIGTERM"
+}
+
+# stopped CODE SIGNAL...: what it ends with.
+stopped() {
+  local wanted=$1 shard signal code=0
+  shift
+  "$FLEETCTL" campaign shard slow.textproto --index 1 --out slow >killed.log 2>err &
+  shard=$!
+  handles_sigterm "$shard"
+  sleep 0.2
+  for signal in "$@"; do
+    kill -"$signal" "$shard" 2>/dev/null || true
+    sleep 0.02
+  done
+  wait "$shard" 2>/dev/null || code=$?
+  [[ $code -eq $wanted ]] || fail "stopped by $*: exit code $code"
+  [[ ! -s killed.log && -z $(ls -A slow) ]] || fail "stopped by $*: it left $(ls -A slow) and $(<killed.log)"
+  # A third signal does not wait for words.
+  [[ $# -gt 1 || $1 == KILL || $(<err) == "shard 1 of 2 was interrupted and has no result" ]] ||
+    fail "stopped by $*: $(<err)"
+}
+stopped 137 KILL
+stopped 143 TERM
+stopped 130 INT
+stopped 143 TERM TERM TERM # as GNU parallel does within a third of a second
+campaign 0 "run again" shard slow.textproto --index 1 --out slow
+campaign 0 "never stopped" shard slow.textproto --index 1 --out never_stopped
+cmp -s slow/slow.1-of-2.json never_stopped/slow.1-of-2.json || fail "run again: another result"
 
 # A result that exists is not computed again: the file stays as it is, and is what is printed.
 touch -d '2001-01-01' results/small.1-of-4.json
 campaign 0 "there already" shard plan.textproto --index 1 --out results
 cmp -s out results/small.1-of-4.json || fail "there already: another line"
 [[ $(date -r results/small.1-of-4.json +%Y) -eq 2001 ]] || fail "there already: it was written again"
-sed 's/"plan":"[0-9a-f]*"/"plan":"0123456789abcdef"/' results/small.1-of-4.json >other.json
-cp other.json results/small.1-of-4.json
-campaign 0 "of another plan" shard plan.textproto --index 1 --out results
-grep -q 'of another plan or program' err || fail "of another plan: $(<err)"
+# What is no result of this shard is replaced, and the message says why, with the path once.
+sed 's/51/52/' plan.textproto >more.textproto
+campaign 0 "of one more seed" shard more.textproto --index 1 --out more
+for there in more/small.1-of-4.json results/small.2-of-4.json /dev/null half.json; do
+  head -c 500 results/small.2-of-4.json >half.json
+  cat "$there" >results/small.1-of-4.json
+  campaign 0 "in place of $there" shard plan.textproto --index 1 --out results
+  [[ $(grep -o 'small.1-of-4.json' err | wc -l) -eq 1 && $(<err) == *"; the shard is run again and the file replaced" ]] ||
+    fail "in place of $there: $(<err)"
+done
+mkdir -p folder/small.1-of-4.json
+refused "a folder in its place" 'small.1-of-4.json: is a folder; remove it' shard plan.textproto --index 1 --out folder
+! grep -q replaced err || fail "a folder in its place: $(<err)"
 campaign 0 "replaced" merge results/*.json --json
 cmp -s out whole.json || fail "replaced: another result"
 
@@ -101,6 +144,47 @@ code=0
 read -ra words <shown
 "$FLEETCTL" "${words[@]:1}" >/dev/null || code=$?
 [[ $code -eq 1 ]] || fail "the command does not fail again: exit code $code"
+
+# A full or closed stdout: what was computed is in the file, and the shard is to be tried again. Its line is
+# longer than the buffer of stdout.
+cat >wide.textproto <<'PLAN'
+name: "wide"
+generator: ["crossing", "convoy", "merge", "swarm", "corridor"]
+seeds: [4294967100, 4294967239]
+vehicles: 2
+crashes: 9
+PLAN
+code=0
+"$FLEETCTL" campaign shard wide.textproto --index 0 --jobs 2 --out wide >/dev/full 2>err || code=$?
+[[ $code -eq 75 && $(<err) == "cannot write the result to stdout" ]] || fail "a full stdout: exit code $code: $(<err)"
+campaign 1 "after a full stdout" shard wide.textproto --index 0 --out wide
+cmp -s out wide/wide.0-of-1.json && [[ $(wc -c <out) -gt 4096 ]] || fail "after a full stdout: $(wc -c <out) bytes"
+for closed in "$FLEETCTL campaign shard wide.textproto --index 0 --out wide" "$FLEETCTL campaign merge wide/wide.0-of-1.json"; do
+  code=0
+  $closed >&- 2>err || code=$?
+  [[ $code -eq 75 || ($code -eq 2 && $closed == *merge*) ]] || fail "$closed: a closed stdout: exit code $code: $(<err)"
+done
+code=0
+"$FLEETCTL" campaign merge wide/wide.0-of-1.json --json >/dev/full 2>err || code=$?
+[[ $code -eq 2 && $(<err) == "cannot write the report to stdout" ]] || fail "merge to a full stdout: exit code $code: $(<err)"
+campaign 1 "a long report" merge wide/wide.0-of-1.json --json
+jq -e '.failing_left_out > 0 and (.failing | length) + .failing_left_out == .all.failed_runs' out >/dev/null ||
+  fail "failing runs: $(jq -c '[.all.failed_runs, (.failing | length), .failing_left_out]' out)"
+# A file that cannot be written at the end.
+code=0
+(ulimit -f 4 && exec "$FLEETCTL" campaign shard wide.textproto --index 0 --jobs 2 --out small_disk) 2>err | cat >out || code=$?
+[[ $code -eq 75 ]] || fail "a full disk: exit code $code: $(<err)"
+cmp -s out wide/wide.0-of-1.json || fail "a full disk: it was not printed"
+
+# Fewer threads than asked for, by an address space that holds the stacks of three; and none.
+code=0
+(ulimit -s 1048576 -v 4500000 && exec "$FLEETCTL" campaign shard wide.textproto --index 0 --jobs 8) >out 2>err || code=$?
+[[ $code -eq 1 ]] || fail "too few threads: exit code $code: $(<err)"
+cmp -s out wide/wide.0-of-1.json || fail "too few threads: another result"
+code=0
+(ulimit -s 4194304 -v 3000000 && exec "$FLEETCTL" campaign shard wide.textproto --index 0) >out 2>err || code=$?
+[[ $code -eq 75 && ! -s out ]] || fail "no thread: exit code $code: $(<err)"
+grep -q 'cannot be run now' err || fail "no thread: $(<err)"
 
 # A scenario in place of generators: its runs are those of fleetctl virtual too. Cut short, no
 # vehicle arrives, though its file expects it.
@@ -133,10 +217,12 @@ refused "vehicles of a scenario that names its own" 'vehicles = 3: it names its 
 printf 'name: "a"\nscenario: "convoy"\ngenerator: "swarm"\nseeds: 1\n' >both.textproto
 refused "both" 'is a generator too' shard both.textproto --index 0
 refused "a file for a folder" 'occupied' shard plan.textproto --index 0 --out occupied
-refused "twice" 'index = 1: stands in results/small.1-of-4.json too' merge results/*.json results/small.1-of-4.json
-refused "another plan" 'plan = 0123456789abcdef' merge results/*.json other.json
-sed 's/"program":"[0-9a-f]*"/"program":"abcd"/' results/small.1-of-4.json >other.json
-refused "another program" 'program = abcd' merge results/small.[023]* other.json
+refused "a file twice" '^\./results/small.1-of-4.json: is given twice' merge results/*.json ./results/small.1-of-4.json
+cp results/small.1-of-4.json other.json
+refused "a shard twice" 'index = 1: stands in other.json too' merge other.json results/*.json
+refused "another plan" 'plan = [0-9a-f]+: is [0-9a-f]+ in results' merge results/small.[023]* more/small.1-of-4.json
+sed 's/"contacts":0/"contacts":1/' results/small.1-of-4.json >other.json
+refused "an edited one" 'other.json: its checksum is of other contents' merge results/small.[023]* other.json
 head -c 500 results/small.1-of-4.json >half.json
 refused "half a file" 'half.json: is no result of a shard' merge results/small.[023]* half.json
 refused "no result" 'no line of it is a result' merge plan.textproto

@@ -2,7 +2,7 @@
 # Runs generators of the virtual fleet over many seeds and reports what broke: a `fleetctl campaign` on this
 # machine alone. A finished shard is a file in the folder of results, so that an interrupted campaign is
 # resumed by the same command. Exit code 0: every invariant held in every run; 1: one did not; 2: bad usage,
-# or a shard could not be run.
+# or a shard could not be run; others are those of a shard that was interrupted or lacked something.
 # Usage: campaign.sh [--seeds N] [--results DIR] [--generators "NAME ..."] [--jobs J]
 set -euo pipefail
 
@@ -45,8 +45,10 @@ for ((index = 0; index < shards; ++index)); do
   code=0
   "$fleetctl" campaign shard "$work/campaign.textproto" --of "$shards" --index "$index" --jobs "$jobs" \
     --out "$results" >/dev/null 2>"$work/said" || code=$?
-  # 1 has a result: something broke, which the sum will report.
-  [[ $code -le 1 ]] && continue
+  # 1 has a result: something broke, which the sum will report. Without the file there is nothing to add up.
+  [[ $code -le 1 && -s $results/campaign.$index-of-$shards.json ]] && continue
+  echo "shard $index of $shards ended with exit code $code and is no file in $results:" >&2
+  ((code > 1)) || code=2
   cat "$work/said" >&2
   exit "$code"
 done

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
+#include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -24,6 +24,7 @@
 #include "services/fleetctl/campaign/campaign_run.h"
 #include "services/fleetctl/output/output_file.h"
 #include "services/fleetctl/output/terminal_text.h"
+#include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/process/program_id.h"
 #include "services/runtime/process.h"
@@ -44,12 +45,27 @@ CampaignPlan LoadPlan(const std::string& path) {
   return LoadCampaign(path, generators);
 }
 
-int PrintLine(const std::string& line, bool held) {
-  fmt::print("{}\n", line);
-  const int code = held ? 0 : 1;
-  if (std::fflush(stdout) == 0) return code;
-  std::fprintf(stderr, "cannot write the result to stdout\n");
-  return 1;
+// By fputs, since fmt::print throws where stderr is full or closed, which must not change what the
+// shard ends with.
+void PrintError(const std::string& text) { std::fputs(text.c_str(), stderr); }
+
+// False, with a message, unless stdout took all of it. By fputs, since fmt::print throws where a
+// line longer than the buffer is not written.
+bool Print(const std::string& text, const char* what) {
+  std::fputs(text.c_str(), stdout);
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
+  PrintError(fmt::format("cannot write {} to stdout\n", what));
+  return false;
+}
+
+bool IsWritten(const std::string& file, const std::string& text) {
+  try {
+    WriteFile(file, text);
+    return true;
+  } catch (const OutputError& error) {
+    PrintError(std::string(error.what()) + "\n");
+    return false;
+  }
 }
 
 bool ShardHeld(const ShardResult& result) {
@@ -66,26 +82,41 @@ std::string FileOf(const std::string& folder, const CampaignPlan& plan, const Sh
       .string();
 }
 
-// The file's content, if it is exactly this shard of this plan by this program; any other content
-// is reported, and will be replaced.
-std::optional<ShardResult> ThereAlready(const std::string& file, const CampaignPlan& plan,
-                                        const ShardOf& shard) {
+// Both places are tried, the file first: what was computed is lost only if neither takes it.
+int Deliver(const ShardResult& result, const std::string& file) {
+  const std::string line = ToJson(result) + "\n";
+  const bool is_written = file.empty() || IsWritten(file, line);
+  const bool is_printed = Print(line, "the result");
+  if (!is_written || !is_printed) return kShardNotDone;
+  return ShardHeld(result) ? 0 : 1;
+}
+
+// What an earlier process left in place of the shard's file.
+struct EarlierFile {
+  std::optional<ShardResult> result;  // exactly this shard of this plan by this program
+  std::string complaint;              // why it is not; empty: nothing is there
+};
+
+EarlierFile ReadEarlier(const std::string& file, const CampaignPlan& plan, const ShardOf& shard) {
   std::error_code error;
-  if (!std::filesystem::exists(file, error)) return std::nullopt;
-  std::string complaint;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (std::filesystem::is_directory(status)) {
+    throw OutputError(file + ": is a folder; remove it, or name another place with --out");
+  }
+  if (!std::filesystem::is_regular_file(status)) return {};
   try {
     ReadShard read = ShardFromJson(ReadTextFile(file));
+    if (!read.complaint.empty()) return {{}, read.complaint};
     const ShardResult& there = read.result;
-    if (read.complaint.empty() && there.plan == PlanHash(plan) && there.program == ProgramId() &&
+    if (there.plan == PlanHash(plan) && there.program == ProgramId() &&
         there.shard.of == shard.of && there.shard.index == shard.index) {
-      return std::move(read.result);
+      return {std::move(read.result), {}};
     }
-    complaint = read.complaint.empty() ? "is of another plan or program" : read.complaint;
+    return {{}, "is of another plan or program"};
   } catch (const InputError& unreadable) {
-    complaint = unreadable.what();
+    // Without its remedy, which is for those who wrote the file.
+    return {{}, unreadable.Problems().front().message};
   }
-  fmt::print(stderr, "{}: {}; the shard is run again and the file replaced\n", file, complaint);
-  return std::nullopt;
 }
 
 bool ShowDone(std::uint32_t done, std::uint32_t of, double gone_s) {
@@ -98,9 +129,35 @@ bool ShowDone(std::uint32_t done, std::uint32_t of, double gone_s) {
   return Interrupts::Count() == 0;
 }
 
-}  // namespace
+// Only for a person. Runtimes of containers read stdout and stderr apart from each other, and cut a
+// long line into pieces: a line on stderr next to the result would land inside it in the pod's log,
+// which would then have no result.
+void ShowEnd(const ShardResult& result, double took_s) {
+  if (::isatty(STDERR_FILENO) != 1) return;
+  const CampaignSums all = SumOf(result.generators);
+  fmt::print(stderr, "shard {} of {}: {} runs, {} failed, {:.1f} s\n", result.shard.index,
+             result.shard.of, all.runs, all.failed_runs, took_s);
+}
 
-int RunCampaignShard(const CampaignShardOptions& options) {
+int RunNow(const CampaignMaker& maker, const ShardOf& shard, std::uint32_t jobs,
+           const std::string& file) {
+  PrintError(maker.Remark());
+  const SteadyTime start = SteadyNow();
+  const auto gone_s = [start] { return Seconds(SteadyNow() - start); };
+  const auto show = [&](std::uint32_t done, std::uint32_t of) {
+    return ShowDone(done, of, gone_s());
+  };
+  const auto result = RunShard(maker, shard, jobs, show);
+  if (!result) {
+    PrintError(
+        fmt::format("shard {} of {} was interrupted and has no result\n", shard.index, shard.of));
+    return Interrupts::SignalCode();
+  }
+  ShowEnd(*result, gone_s());
+  return Deliver(*result, file);
+}
+
+int FindOrRun(const CampaignShardOptions& options) {
   const CampaignPlan plan = LoadPlan(options.plan);
   ShardOf shard;
   shard.of = options.of.value_or(plan.shards);
@@ -114,46 +171,66 @@ int RunCampaignShard(const CampaignShardOptions& options) {
   if (!options.out_folder.empty()) {
     CheckFolder(options.out_folder);
     file = FileOf(options.out_folder, plan, shard);
-    if (const auto there = ThereAlready(file, plan, shard)) {
-      return PrintLine(ToJson(*there), ShardHeld(*there));
-    }
+    const EarlierFile earlier = ReadEarlier(file, plan, shard);
+    if (earlier.result) return Deliver(*earlier.result, {});
     CheckWritable(file);
+    if (!earlier.complaint.empty()) {
+      PrintError(fmt::format("{}: {}; the shard is run again and the file replaced\n", file,
+                             earlier.complaint));
+    }
   }
-  const CampaignMaker maker(plan);
-  std::fputs(maker.Remark().c_str(), stderr);
-  const Interrupts interrupts(Silence::kComputes);
-  const SteadyTime start = SteadyNow();
-  const auto show = [start](std::uint32_t done, std::uint32_t of) {
-    return ShowDone(done, of, std::chrono::duration<double>(SteadyNow() - start).count());
-  };
-  const auto result = RunShard(maker, shard, options.jobs, show);
-  if (!result) {
-    fmt::print(stderr, "shard {} of {} was interrupted and has no result\n", shard.index, shard.of);
-    return kShardInterrupted;
+  return RunNow(CampaignMaker(plan), shard, options.jobs, file);
+}
+
+// The files without those that are named again, however spelt: each of their shards would be
+// reported as standing there twice.
+std::vector<std::string> EachOnce(const std::vector<std::string>& files, ProblemList* problems) {
+  std::set<std::filesystem::path> known;
+  std::vector<std::string> once;
+  for (const std::string& file : files) {
+    std::error_code error;
+    const auto path = std::filesystem::weakly_canonical(file, error);
+    if (error || known.insert(path).second) {
+      once.push_back(file);
+    } else {
+      problems->Add(
+          {.file = file, .message = "is given twice", .remedy = "name each file of results once"});
+    }
   }
-  const std::string line = ToJson(*result);
-  const int code = PrintLine(line, ShardHeld(*result));
-  const CampaignSums all = SumOf(result->generators);
-  fmt::print(stderr, "shard {} of {}: {} runs, {} failed, {:.1f} s\n", shard.index, shard.of,
-             all.runs, all.failed_runs, Seconds(SteadyNow() - start));
-  if (file.empty()) return code;
-  return WriteAfterVerdict(code, [&] { WriteFile(file, line + "\n"); });
+  return once;
+}
+
+}  // namespace
+
+int RunCampaignShard(const CampaignShardOptions& options) {
+  // From the start: as the first process of a container it would not be stopped without a handler.
+  const Interrupts interrupts(Silence::kComputes, HardExit::kAsSignal);
+  try {
+    return FindOrRun(options);
+  } catch (const InputError&) {
+    throw;
+  } catch (const OutputError&) {
+    throw;
+  } catch (const std::exception& lacking) {  // no thread, no memory: main would exit with 2
+    PrintError(fmt::format("the shard cannot be run now: {}; run it again\n", lacking.what()));
+    return kShardNotDone;
+  }
 }
 
 int RunCampaignMerge(const CampaignMergeOptions& options) {
   std::vector<NamedShard> shards;
-  ProblemList unreadable;
-  for (const std::string& file : options.files) ReadResults(file, &shards, &unreadable);
-  MergedCampaign merged = MergeShards(shards);
-  for (const Problem& problem : merged.problems) unreadable.Add(problem);
-  if (!unreadable.Empty()) throw InputError(unreadable.Sorted());
+  ProblemList problems;
+  for (const std::string& file : EachOnce(options.files, &problems)) {
+    ReadResults(file, &shards, &problems);
+  }
+  const MergedCampaign merged = MergeShards(shards);
+  for (const Problem& problem : merged.problems) problems.Add(problem);
+  if (!problems.Empty()) throw InputError(problems.Sorted());
   const std::string text =
       options.json ? ReportJson(merged.result) + "\n" : ForTerminal(ReportText(merged.result));
-  std::fputs(text.c_str(), stdout);
-  const int code = AllHeld(merged.result) ? 0 : 1;
-  if (std::fflush(stdout) == 0) return code;
-  std::fprintf(stderr, "cannot write the report to stdout\n");
-  return std::max(code, 1);
+  // Without its report it has no verdict, whatever the results say.
+  if (!Print(text, "the report")) return kCouldNotRun;
+  return AllHeld(merged.result) ? 0 : 1;
 }
 
 }  // namespace giveway::fleetctl

@@ -9,8 +9,10 @@
 
 namespace giveway::fleetctl {
 
-// A shard that was stopped has no verdict and must be run again: the code of a shell for SIGTERM.
-inline constexpr int kShardInterrupted = 143;
+// The shard has no result, or it did not arrive where it was asked for, for a reason that may be
+// gone the next time: no thread, no memory, a full disk. EX_TEMPFAIL of sysexits.h; an engine that
+// gives up a shard by 1 and 2 alone runs it again.
+inline constexpr int kShardNotDone = 75;
 
 struct CampaignShardOptions {
   std::string plan;
@@ -25,8 +27,10 @@ struct CampaignMergeOptions {
   bool json = false;
 };
 
-// 0 all passed, 1 some run failed, kShardInterrupted. Throw InputError and OutputError.
+// Throw InputError and OutputError. 0 all passed, 1 some run failed. Of a shard also kShardNotDone,
+// and 128 + the signal that stopped it: 1 and 2 would be taken for final.
 int RunCampaignShard(const CampaignShardOptions& options);
+// kCouldNotRun if the report cannot be printed.
 int RunCampaignMerge(const CampaignMergeOptions& options);
 
 }  // namespace giveway::fleetctl

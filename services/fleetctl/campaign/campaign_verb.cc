@@ -12,26 +12,30 @@ Runs one of the K shards of the campaign and prints one JSON object. PLAN is a f
 one; idl/campaign.proto documents each field. Without --index the engine that started it says which shard:
 JOB_COMPLETION_INDEX (Kubernetes), SLURM_ARRAY_TASK_ID, or PARALLEL_SEQ - 1 (GNU parallel). With --out DIR
 the object is also a file there, NAME.I-of-K.json, written whole or not at all; where that is there already,
-of the same plan and program, it is printed and nothing is run.
+of the same plan and program, it is printed and nothing is run. Unless it is a terminal, nothing is written
+on stderr around the object, where it would mix with it in the log of a container.
 
 Examples
   fleetctl campaign shard nightly --of 200 --index 0 --out results
   seq 200 | parallel -N0 fleetctl campaign shard nightly --of 200 > nightly.log
+  parallel fleetctl campaign shard nightly --of 200 --index ::: 17 40 >> nightly.log  # those that lack
 
-Exit code: 0 all held, 1 something did not, or the file was not written, 2 could not run,
-143 interrupted: no result, run it again.
+Exit code: 0 all held, 1 something did not, 2 could not run. Of what may end otherwise the next time:
+75 no thread or memory, or the object could not be written to the file or to stdout; 130 interrupted
+by Ctrl-C, 143 by SIGTERM: no result.
 )";
 
 constexpr const char* kMergeFooter = R"(
 Adds up the results of all shards of a campaign, each once, all of one plan and one program. A RESULT is a
-file of --out, or the log of shards: lines that do not start with { are skipped. Each failing run is
-shown with the command that runs it again. The JSON object is the same whatever the shards were.
+file of --out, or the log of shards: lines that do not start with { are skipped. Each failing run, of
+a generator the first 100, is shown with the command that runs it again. The JSON object is the same whatever the shards were.
 
 Examples
   fleetctl campaign merge results/*.json
   fleetctl campaign merge results/*.json --json | jq -r '.failing[].command'
 
-Exit code: 0 all held, 1 something did not, 2 no result: a shard lacks, stands twice, or is another's.
+Exit code: 0 all held, 1 something did not, 2 no result: a shard lacks, stands twice, is damaged or
+another's, or the report could not be written.
 )";
 
 constexpr const char* kCampaignFooter = R"(
