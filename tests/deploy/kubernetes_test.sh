@@ -145,11 +145,25 @@ C=config/deploy/kubernetes/campaign
 expect every_shard_once "pods without a number" $C/job.yaml 's/Indexed/NonIndexed/'
 expect every_shard_once "fewer pods than shards" $C/job.yaml 's/completions: 200/completions: 100/'
 expect every_shard_once "all pods one shard" $C/job.yaml 's/--jobs, "1"/--index, "0"/'
+expect every_shard_once "all pods one shard, in one word" $C/job.yaml 's/--jobs, "1"\]/--jobs, "1", "--index=0"]/'
+expect every_shard_once "a number set by hand" $C/job.yaml \
+  's/^          image: .*/&\n          env: [{name: JOB_COMPLETION_INDEX, value: "0"}]/'
+expect every_shard_once "a Job that waits" $C/job.yaml 's/^  completions: .*/&\n  suspend: true/'
+expect every_shard_once "a Job that is content with some shards" $C/job.yaml \
+  's/^  completions: .*/&\n  successPolicy: {rules: [{succeededCount: 1}]}/'
+expect every_shard_once "a file where nothing can be written" $C/job.yaml 's/--jobs, "1"\]/--jobs, "1", --out, \/results]/'
+expect images_pinned "a shard of the vehicle's image" $C/job.yaml 's/image: giveway-tools/image: giveway-vehicle:0.1.0/'
 expect tried_again "an eviction that fails its shard" $C/job.yaml '/- action: Ignore/,/status:/d'
 expect tried_again "the exit code looked at before the eviction" $C/job.yaml \
   '/- action: Ignore/,/status:/d; s/values: \[1, 2\]/&\n      - action: Ignore\n        onPodConditions: [{type: DisruptionTarget, status: "True"}]/'
 expect tried_again "a broken invariant tried again" $C/job.yaml 's/values: \[1, 2\]/values: [2]/'
 expect tried_again "a killed shard given up" $C/job.yaml 's/values: \[1, 2\]/values: [1, 2, 137]/'
+expect tried_again "a broken invariant ignored before it is looked at" $C/job.yaml \
+  's/^      - action: FailIndex/      - action: Ignore\n        onExitCodes: {containerName: shard, operator: NotIn, values: [0]}\n&/'
+expect tried_again "pods that are ended after a minute" $C/job.yaml \
+  's/^      restartPolicy: Never/&\n      activeDeadlineSeconds: 60/'
+expect tried_again "a shard started again before it has ended" $C/job.yaml \
+  's/^  completions: .*/&\n  podReplacementPolicy: TerminatingOrFailed/'
 expect tried_again "one limit for all shards" $C/job.yaml 's/backoffLimitPerIndex: 3/backoffLimit: 3/'
 expect tried_again "a pod that is restarted in its place" $C/job.yaml 's/restartPolicy: Never/restartPolicy: OnFailure/'
 expect results_stay "results deleted after a minute" $C/job.yaml 's/ttlSecondsAfterFinished: .*/ttlSecondsAfterFinished: 60/'

@@ -1,9 +1,23 @@
 // Whether the Job of a campaign runs every shard, retries only what may succeed the next time, and
 // keeps the results until they are fetched.
 import { basename, dirname } from 'node:path';
+import { isDeepStrictEqual } from 'node:util';
 
 const wrong = (wanted) => wanted.filter(([holds]) => !holds).map(([, text]) => text);
-const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
+
+// Of a Job there is nothing else: what is not here may stop it (suspend), end it early (successPolicy)
+// or leave it to another controller (managedBy).
+const JOB_FIELDS = ['completionMode', 'completions', 'parallelism', 'backoffLimitPerIndex', 'podFailurePolicy',
+  'ttlSecondsAfterFinished', 'template'];
+// Those about trying again, of which triedAgain complains.
+const RETRY_FIELDS = ['backoffLimit', 'maxFailedIndexes', 'activeDeadlineSeconds', 'podReplacementPolicy'];
+
+// Kubernetes takes the first rule that fits: a pod that is evicted may well end with 1. Any other rule
+// would give up what may succeed, or try again what will not.
+const RULES = [
+  { action: 'Ignore', onPodConditions: [{ type: 'DisruptionTarget', status: 'True' }] },
+  { action: 'FailIndex', onExitCodes: { containerName: 'shard', operator: 'In', values: [1, 2] } },
+];
 
 function jobOf(fleet) {
   const { document, pod } = fleet.workload('campaign');
@@ -15,36 +29,36 @@ function argumentAfter(container, name) {
   return at < 0 ? undefined : container.args[at + 1];
 }
 
-// The number of the shard comes from the Job alone, and there are as many pods as shards.
+// The number of the shard comes from the Job alone, there are as many pods as shards, and nothing else
+// is asked of fleetctl: it has no folder for --out, and --index would make all pods one shard.
 export function everyShardOnce(fleet) {
-  const { spec, kind, container } = jobOf(fleet);
-  const variables = Object.keys(fleet.environmentOf(container));
+  const { spec, kind, pod, container } = jobOf(fleet);
+  const [campaign, shard, plan, of, shards, jobs, threads, ...others] = container.args;
+  const given = Object.keys(spec).filter((name) => !JOB_FIELDS.includes(name) && !RETRY_FIELDS.includes(name));
   return wrong([
     [kind === 'Job' && spec.completionMode === 'Indexed', 'its pods are given no number'],
-    [String(spec.completions) === argumentAfter(container, '--of'), `${spec.completions} completions, and --of ${argumentAfter(container, '--of')}`],
     [spec.parallelism >= 1 && spec.parallelism <= spec.completions, `${spec.parallelism} at a time of ${spec.completions}`],
     [spec.completions <= 100000, 'more than a Job can count with a limit for each index'],
-    [container.args[0] === 'campaign' && container.args[1] === 'shard' && !container.command, 'does not run fleetctl campaign shard'],
-    [!container.args.includes('--index'), '--index makes all pods one shard'],
-    [!variables.includes('SLURM_ARRAY_TASK_ID') && !variables.includes('PARALLEL_SEQ'), 'the number of a shard comes from two engines'],
+    [campaign === 'campaign' && shard === 'shard' && !container.command, 'does not run fleetctl campaign shard'],
+    [of === '--of' && shards === String(spec.completions), `${spec.completions} completions, and ${of} ${shards}`],
+    [plan?.startsWith('/') && jobs === '--jobs' && /^[1-9][0-9]*$/.test(threads) && others.length === 0,
+      `the arguments are ${container.args.join(' ')}, not campaign shard PLAN --of K --jobs N`],
+    [!container.env && !container.envFrom, 'is given variables; the number of the shard is set by the Job alone'],
+    [pod.containers.length === 1 && !pod.initContainers, 'is not the only container of its pod'],
+    [given.length === 0, `the Job has ${given.join(', ')}`],
   ]);
 }
 
-// Kubernetes takes the first rule that fits: one who is evicted may well end with 1.
 export function triedAgain(fleet) {
-  const { spec, pod, container } = jobOf(fleet);
-  const rules = spec.podFailurePolicy?.rules ?? [];
-  const [first, ...others] = rules;
-  const fails = others.find((one) => one.action === 'FailIndex')?.onExitCodes;
+  const { spec, pod } = jobOf(fleet);
+  const rules = spec.podFailurePolicy?.rules;
+  const given = RETRY_FIELDS.filter((name) => spec[name] !== undefined);
   return wrong([
     [pod.restartPolicy === 'Never', 'restartPolicy must be Never for a podFailurePolicy'],
     [spec.backoffLimitPerIndex === 3, `backoffLimitPerIndex is ${spec.backoffLimitPerIndex}, not 3`],
-    [spec.backoffLimit === undefined && spec.maxFailedIndexes === undefined, 'failing shards end the others'],
-    [first?.action === 'Ignore' && first.onPodConditions?.some((one) => one.type === 'DisruptionTarget' && one.status === 'True'), 'the first rule does not ignore disruptions'],
-    [fails?.operator === 'In' && same([...fails.values].sort(), [1, 2]), `an index fails at once by ${fails?.operator} ${JSON.stringify(fails?.values)}, not by 1 and 2`],
-    [(fails?.containerName ?? container.name) === container.name, `the rule is about a container ${fails?.containerName}`],
-    [rules.every((one) => one.action !== 'FailJob'), 'one shard ends the Job'],
-    [spec.activeDeadlineSeconds === undefined, 'the Job ends whatever is left'],
+    [isDeepStrictEqual(rules, RULES), `the rules are ${JSON.stringify(rules)}, not ${JSON.stringify(RULES)}`],
+    [given.length === 0, `the Job has ${given.join(', ')}: it ends what is left, or starts a shard that still runs`],
+    [pod.activeDeadlineSeconds === undefined, 'a pod that takes long is ended, and its shard run again'],
   ]);
 }
 

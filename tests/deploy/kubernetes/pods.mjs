@@ -55,12 +55,22 @@ export function shutIn(fleet) {
   return [...pods, ...containers, ...spaces];
 }
 
+// The image of each component.
+const IMAGES = {
+  world: 'giveway-world',
+  vehicle: 'giveway-vehicle',
+  observer: 'giveway-observer',
+  'discovery-server': 'giveway-tools',
+  campaign: 'giveway-tools',
+};
+
 export function imagesArePinned(fleet) {
   const cmake = readFileSync(join(fleet.root, 'CMakeLists.txt'), 'utf8');
   const version = /project\(giveway VERSION ([0-9.]+)/.exec(cmake)[1];
-  return each(fleet, ({ image }) => {
+  return each(fleet, ({ image }, { labels }) => {
     const [name, tag] = image.split('/').pop().split(':');
-    if (!/^giveway-(observer|world|vehicle|tools)$/.test(name)) return [`${name} is not an image of this project`];
+    const wanted = IMAGES[labels['app.kubernetes.io/component']];
+    if (name !== wanted) return [`the image is ${name}, not ${wanted}`];
     return tag === version ? [] : [`${image} is not of version ${version}`];
   });
 }
