@@ -181,7 +181,9 @@ ReadShard ShardFromJson(std::string_view json) {
   schema::CampaignShard message;
   const auto status = google::protobuf::util::JsonStringToMessage(std::string(json), &message);
   if (!status.ok()) {
-    return {{}, fmt::format("is no result of a shard: {}", std::string(status.message()))};
+    // Below its first line the text is shown, with a mark at the place.
+    const std::string why(status.message());
+    return {{}, "is no result of a shard: " + why.substr(0, why.find('\n'))};
   }
   if (message.format() != kCampaignFormat) {
     return {{}, fmt::format("is of format {}, must be {}", message.format(), kCampaignFormat)};

@@ -18,6 +18,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 std::vector<NamedShard> ShardsOf(const CampaignPlan& plan, std::uint32_t of) {
   std::vector<NamedShard> shards;
@@ -53,6 +54,7 @@ TEST(CampaignShardJson, SaysAllThatIsWrong) {
                     HasSubstr("\"crosing\" is no generator"), HasSubstr("swarm: more failed")));
   for (const char* text : {"", "{", "[]", "{\"format\":2}", "{}", "{\"format\":1,\"of\":\"x\"}"}) {
     EXPECT_NE(ShardFromJson(text).complaint, "") << text;
+    EXPECT_THAT(ShardFromJson(text).complaint, Not(HasSubstr("\n"))) << text;
   }
 }
 
