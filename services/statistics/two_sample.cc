@@ -1,8 +1,8 @@
 #include "services/statistics/two_sample.h"
 
 #include <algorithm>
-#include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/hypergeometric.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -16,7 +16,7 @@ namespace {
 
 // Up to so many values all assignments to the two samples are enumerated.
 constexpr std::size_t kMostExact = 40;
-constexpr double kTail = 0.99;
+constexpr double kMostAlike = 0.98;  // correlation of neighbours; above it nothing is known
 
 // The share of all choices of `chosen` out of the ranks whose sum is at least theirs. Ranks are
 // doubled to be whole.
@@ -46,30 +46,54 @@ double NormalGreater(double u, double n, double m, double tied) {
   return NormalAbove((u - n * m / 2 - 0.5) / Sqrt(variance));
 }
 
-// Both histograms' buckets side by side: how many of each lie in it.
-struct SharedBucket {
-  double before = 0;
-  double after = 0;
-};
-
-std::vector<SharedBucket> SideBySide(const Histogram& before, const Histogram& after) {
-  const std::vector<HistogramBucket> a = before.Buckets();
-  const std::vector<HistogramBucket> b = after.Buckets();
-  std::vector<SharedBucket> shared;
-  for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
-    const bool of_a = j == b.size() || (i < a.size() && a[i].lowest <= b[j].lowest);
-    const bool of_b = i == a.size() || (j < b.size() && b[j].lowest <= a[i].lowest);
-    SharedBucket bucket;
-    if (of_a) bucket.before = static_cast<double>(a[i++].count);
-    if (of_b) bucket.after = static_cast<double>(b[j++].count);
-    shared.push_back(bucket);
+// Of all choices of signs for the ranks the share whose positive ranks come to at least `sum`.
+// Ranks are doubled to be whole.
+double ExactSigned(const std::vector<double>& ranks, double sum) {
+  std::vector<double> ways{1};
+  for (const double rank : ranks) {
+    const auto doubled = static_cast<std::size_t>(std::llround(2 * rank));
+    ways.resize(ways.size() + doubled);
+    for (std::size_t s = ways.size(); s-- > doubled;) ways[s] += ways[s - doubled];
   }
-  return shared;
+  const auto least = static_cast<std::ptrdiff_t>(std::llround(2 * sum));
+  const double all = std::accumulate(ways.begin(), ways.end(), 0.0);
+  return std::accumulate(ways.begin() + least, ways.end(), 0.0) / all;
 }
 
-double Weight(const Histogram& histogram, double most) {
-  const double count = static_cast<double>(histogram.Count());
-  return std::min(1.0, most / count);
+// How each difference ranks by its size, with its sign; 0 for none.
+std::vector<double> SignedRanks(const std::vector<double>& differences) {
+  std::vector<double> sizes;
+  for (const double difference : differences) {
+    if (difference != 0) sizes.push_back(std::abs(difference));
+  }
+  const std::vector<double> ranks = MidRanks(sizes);
+  std::vector<double> with_signs;
+  std::size_t next = 0;
+  for (const double difference : differences) {
+    with_signs.push_back(difference == 0 ? 0 : std::copysign(ranks[next], difference));
+    if (difference != 0) ++next;
+  }
+  return with_signs;
+}
+
+// That the mean of a series is above 0, by Student, where neighbours may resemble each other: so
+// many of them that resemble each other as in a process of first order count for fewer.
+double SeriesAboveZero(const std::vector<double>& series) {
+  const double n = static_cast<double>(series.size());
+  const double mean = std::accumulate(series.begin(), series.end(), 0.0) / n;
+  double square = 0;
+  double product = 0;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    square += (series[i] - mean) * (series[i] - mean);
+    if (i > 0) product += (series[i] - mean) * (series[i - 1] - mean);
+  }
+  if (square <= 0) return mean > 0 ? 0 : 1;
+  // A short series shows it too small, by (1 + 4 r) / n.
+  const double unbiased = (product / square + 1 / n) / (1 - std::min(4 / n, 0.5));
+  const double r = std::clamp(unbiased, 0.0, kMostAlike);
+  const double independent = std::max(2.0, n * (1 - r) / (1 + r));
+  const double t = mean / std::sqrt(square / (n - 1) / independent);
+  return cdf(complement(boost::math::students_t(independent - 1), t));
 }
 
 }  // namespace
@@ -96,43 +120,21 @@ double MannWhitneyGreater(std::span<const double> before, std::span<const double
   return NormalGreater(rank_sum - m * (m + 1) / 2, n, m, tied);
 }
 
-double MannWhitneyGreater(const Histogram& before, double most_before, const Histogram& after,
-                          double most_after) {
-  if (before.Count() == 0 || after.Count() == 0) return 1;
-  const double weight_before = Weight(before, most_before);
-  const double weight_after = Weight(after, most_after);
-  double below = 0;
-  double u = 0;
-  double tied = 0;
-  for (const SharedBucket& bucket : SideBySide(before, after)) {
-    const double a = bucket.before * weight_before;
-    const double b = bucket.after * weight_after;
-    u += b * (below + a / 2);
-    below += a;
-    const double alike = a + b;
-    if (alike > 1) tied += alike * alike * alike - alike;
+double SeriesGreater(std::span<const double> before, std::span<const double> after) {
+  const std::size_t pairs = std::min(before.size(), after.size());
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < pairs; ++i) differences.push_back(after[i] - before[i]);
+  const std::vector<double> with_signs = SignedRanks(differences);
+  std::vector<double> ranks;
+  double sum = 0;
+  for (const double rank : with_signs) {
+    if (rank != 0) ranks.push_back(std::abs(rank));
+    sum += std::max(0.0, rank);
   }
-  const double m = static_cast<double>(after.Count()) * weight_after;
-  return NormalGreater(u, below, m, tied);
-}
-
-double TailGreater(const Histogram& before, double most_before, const Histogram& after,
-                   double most_after) {
-  if (before.Count() == 0 || after.Count() == 0) return 1;
-  const double weight_before = Weight(before, most_before);
-  const double weight_after = Weight(after, most_after);
-  const double n = static_cast<double>(before.Count()) * weight_before;
-  const double m = static_cast<double>(after.Count()) * weight_after;
-  double tail_before = 0;
-  double tail_after = 0;
-  const std::vector<SharedBucket> shared = SideBySide(before, after);
-  for (std::size_t i = shared.size(); i-- > 1;) {
-    tail_before += shared[i].before * weight_before;
-    tail_after += shared[i].after * weight_after;
-    if (tail_before + tail_after >= (1 - kTail) * (n + m)) break;
-  }
-  const auto whole = [](double value) { return static_cast<std::uint64_t>(std::llround(value)); };
-  return ShareGreater(whole(tail_before), whole(n), whole(tail_after), whole(m));
+  if (ranks.size() < 2) return 1;
+  // More have their exact share below Student's.
+  const double exact = ranks.size() <= kMostExact ? ExactSigned(ranks, sum) : 0;
+  return std::max(exact, SeriesAboveZero(with_signs));
 }
 
 double ShareGreater(std::uint64_t hits_before, std::uint64_t of_before, std::uint64_t hits_after,
@@ -148,15 +150,6 @@ double ShareGreater(std::uint64_t hits_before, std::uint64_t of_before, std::uin
       static_cast<unsigned>(hits), static_cast<unsigned>(of_after),
       static_cast<unsigned>(of_before + of_after));
   return cdf(complement(by_chance, static_cast<unsigned>(hits_after - 1)));
-}
-
-double RateGreater(std::uint64_t events_before, double exposure_before, std::uint64_t events_after,
-                   double exposure_after) {
-  const double share = exposure_after / (exposure_before + exposure_after);
-  if (!(share > 0 && share < 1) || events_after == 0) return 1;
-  const double after = static_cast<double>(events_after);
-  const boost::math::binomial by_chance(static_cast<double>(events_before) + after, share);
-  return cdf(complement(by_chance, after - 1));
 }
 
 std::vector<double> HolmAdjusted(std::span<const double> p_values) {

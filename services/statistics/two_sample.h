@@ -4,7 +4,7 @@
 //
 //   MannWhitneyGreater  values on the whole: Mann and Whitney 1947; exact for few, else normal
 //   ShareGreater        a share, as of values in a tail: Fisher's exact test
-//   RateGreater         events over time: the exact conditional binomial test
+//   SeriesGreater       two series side by side: Wilcoxon 1945, and Student
 //   HolmAdjusted        many tests at once: Holm 1979
 #pragma once
 
@@ -12,28 +12,20 @@
 #include <span>
 #include <vector>
 
-#include "services/types/figures/histogram.h"
-
 namespace giveway::statistics {
 
 // That values of `after` are greater than those of `before`. 1 if one of them is empty.
 double MannWhitneyGreater(std::span<const double> before, std::span<const double> after);
 
-// The same of two histograms. Their values stem from few vehicles over a time and resemble each
-// other: each histogram weighs no more than `most` independent values.
-double MannWhitneyGreater(const Histogram& before, double most_before, const Histogram& after,
-                          double most_after);
-// That more of `after` than of `before` lies above the 99 % quantile of both together.
-double TailGreater(const Histogram& before, double most_before, const Histogram& after,
-                   double most_after);
+// That values of `after` are greater than those of `before` at the same place of two series, such
+// as the blocks of time of two runs; neighbours may resemble each other. By the signed ranks of the
+// differences (Wilcoxon 1945), and never surer than Student's test of those ranks is, after what
+// their resemblance takes from their number. Places that only one of them has are left out.
+double SeriesGreater(std::span<const double> before, std::span<const double> after);
 
 // That `hits` of `of` became a greater share.
 double ShareGreater(std::uint64_t hits_before, std::uint64_t of_before, std::uint64_t hits_after,
                     std::uint64_t of_after);
-
-// That events became more frequent; exposures above 0, in one unit.
-double RateGreater(std::uint64_t events_before, double exposure_before, std::uint64_t events_after,
-                   double exposure_after);
 
 // In the order given; each as likely as chance alone makes any of them, 1 at most.
 std::vector<double> HolmAdjusted(std::span<const double> p_values);

@@ -15,7 +15,10 @@ soak() {
       noticed_after_s: (0.3 + . / 1000), promised_s: 0.5, recovered_after_s: 1}],
     histograms: [{name: "beacon_age", unit: "ns", min: $age, max: ($age + 19 * 1048576), clamped: 0,
       lowest: [range(20) | $age + . * 1048576], count: [range(20) | 100],
-      budgets: [{quantile: 0.99, most: 500000000}]}],
+      budgets: [{quantile: 0.99, most: 500000000}], block_values: [range(20) | 100],
+      block_p50: [range(20) | $age + (9 + . % 2) * 1048576],
+      block_p99: [range(20) | $age + 19 * 1048576]}],
+    block_s: 15, near_misses_by_block: [5],
     near_misses: [range(5) | {time_s: ., vehicle: 1, other: 2, x_m: ., y_m: 1, distance_m: 0.1}],
     near_misses_counted: 5}' >"$1/report.json"
 }
@@ -62,8 +65,11 @@ report 1 "slower" last-release slower --json
 jq -e '.worse and (.figures[0] | .what == "beacon_age, median" and .change == "worse"
   and .p < 0.01)' out >/dev/null || fail "slower: $(cat out)"
 report 0 "in reverse" slower last-release
+jq -c 'del(.block_s)' slower/report.json >older.json
+report 0 "without blocks" last-release older.json
+grep -q 'untested: a report without blocks' out || fail "without blocks: $(cat out)"
 report 1 "failed" last-release broken
-grep -q '^worse  verdict' out || fail "failed: $(cat out)"
+grep -q '^worse    verdict' out || fail "failed: $(cat out)"
 
 report 2 "another scenario" last-release elsewhere
 grep -q 'city_grid' err || fail "another scenario: $(cat err)"

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
 #include <string_view>
 #include <tuple>
 
+#include "services/fleetctl/soak/soak_blocks.h"
 #include "services/fleetctl/soak/soak_format.h"
 #include "services/statistics/distributions.h"
 #include "services/statistics/two_sample.h"
@@ -17,7 +19,15 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr double kLeastChange = 0.05;                     // of a time; less does not matter
+constexpr double kSameBlocks = 1e-3;                      // of a block's length
 constexpr double kIntervalWidth = 2 * 1.959963984540054;  // of 95 %, in standard deviations
+
+// Why a figure was not tested.
+constexpr const char* kNoBlocks = "a report without blocks of time: it is older, or was resumed";
+constexpr const char* kOtherLengths = "soaks of different durations";
+constexpr const char* kOneEvent = "all values stem from one event, and one soak cannot decide";
+constexpr const char* kNotAllListed = "not all violations are listed with their times";
+constexpr const char* kAreViolations = "each is among the violations";
 
 // A figure with the p values of both directions, before correction for multiple tests.
 struct TestedFigure {
@@ -32,7 +42,13 @@ class Figures {
  public:
   void Add(TestedFigure tested) { tested_.push_back(std::move(tested)); }
   void AddSure(std::string what, std::string before, std::string after, Change change) {
-    sure_.push_back({std::move(what), std::move(before), std::move(after), change, std::nullopt});
+    sure_.push_back(
+        {std::move(what), std::move(before), std::move(after), change, std::nullopt, {}});
+  }
+  void AddUntested(ComparedFigure figure, std::string why) {
+    if (figure.before != figure.after) figure.change = Change::kUntested;
+    figure.why_untested = std::move(why);
+    sure_.push_back(std::move(figure));
   }
 
   std::vector<ComparedFigure> Judged() && {
@@ -53,7 +69,8 @@ class Figures {
       figures.push_back(std::move(figure));
     }
     const auto place = [](const ComparedFigure& figure) {
-      return figure.change == Change::kWorse ? 0 : figure.change == Change::kBetter ? 1 : 2;
+      constexpr std::array kOrder{Change::kWorse, Change::kBetter, Change::kUntested};
+      return std::ranges::find(kOrder, figure.change) - kOrder.begin();
     };
     std::ranges::stable_sort(figures, {}, place);
     return figures;
@@ -66,39 +83,83 @@ class Figures {
 
 bool GrewEnough(double before, double after) { return after > before * (1 + kLeastChange); }
 
-// Vehicle-seconds.
-double ExposureOf(const SoakResult& result) {
-  return std::max(1.0, result.ran_s * std::max(1U, result.vehicles));
+// The blocks of time of two soaks, place by place: what one did in a block is independent of what
+// it did in others, and two of equal programs are as likely the one way round as the other.
+struct CommonBlocks {
+  std::size_t count = 0;  // that both have in full
+  std::string why_none;   // empty: they can be compared
+};
+
+CommonBlocks CommonBlocksOf(const SoakResult& before, const SoakResult& after) {
+  if (!(before.block_s > 0 && after.block_s > 0)) return {0, kNoBlocks};
+  if (std::abs(before.block_s - after.block_s) > kSameBlocks * before.block_s) {
+    return {0, kOtherLengths};
+  }
+  const double full = std::min(before.ran_s, after.ran_s) / before.block_s + kSameBlocks;
+  return {static_cast<std::size_t>(std::clamp(full, 0.0, static_cast<double>(kSoakBlocks))), {}};
 }
 
-void CompareQuantile(const SoakHistogram& before, const SoakHistogram& after, double p,
-                     std::string_view part, double p_worse, double p_better, Figures* figures) {
+// Of each block in which both have values.
+struct BlockSeries {
+  std::vector<double> before;
+  std::vector<double> after;
+};
+
+BlockSeries SeriesOf(const SoakHistogram& before, const SoakHistogram& after, std::size_t blocks,
+                     std::int64_t BlockQuantiles::*quantile) {
+  BlockSeries series;
+  for (std::size_t i = 0; i < std::min({blocks, before.blocks.size(), after.blocks.size()}); ++i) {
+    const BlockQuantiles& was = before.blocks[i];
+    const BlockQuantiles& is = after.blocks[i];
+    if (was.count == 0 || is.count == 0) continue;
+    series.before.push_back(static_cast<double>(was.*quantile));
+    series.after.push_back(static_cast<double>(is.*quantile));
+  }
+  return series;
+}
+
+void AddSeries(TestedFigure tested, const BlockSeries& series, const std::string& why_not,
+               Figures* figures) {
+  if (!why_not.empty()) {
+    figures->AddUntested(std::move(tested.figure), why_not);
+    return;
+  }
+  tested.p_worse = statistics::SeriesGreater(series.before, series.after);
+  tested.p_better = statistics::SeriesGreater(series.after, series.before);
+  figures->Add(std::move(tested));
+}
+
+TestedFigure QuantileOf(const SoakHistogram& before, const SoakHistogram& after, double p,
+                        std::string_view part) {
   const std::int64_t was = before.histogram.Quantile(p);
   const std::int64_t is = after.histogram.Quantile(p);
   const auto number = [](std::int64_t value) { return static_cast<double>(value); };
-  figures->Add({.figure = {.what = fmt::format("{}, {}", before.name, part),
-                           .before = FormatValue(before.unit, was),
-                           .after = FormatValue(after.unit, is)},
-                .p_worse = p_worse,
-                .p_better = p_better,
-                .may_be_worse = GrewEnough(number(was), number(is)),
-                .may_be_better = GrewEnough(number(is), number(was))});
+  return {.figure = {.what = fmt::format("{}, {}", before.name, part),
+                     .before = FormatValue(before.unit, was),
+                     .after = FormatValue(after.unit, is)},
+          .may_be_worse = GrewEnough(number(was), number(is)),
+          .may_be_better = GrewEnough(number(is), number(was))};
+}
+
+// Those of faults are compared by kind.
+bool IsOfFaults(const SoakHistogram& measured) {
+  return measured.name == "noticed" || measured.name == "recovered";
 }
 
 void CompareHistograms(const SoakResult& before, const SoakResult& after, Figures* figures) {
-  const double most_before = ExposureOf(before);
-  const double most_after = ExposureOf(after);
+  const CommonBlocks blocks = CommonBlocksOf(before, after);
   for (const SoakHistogram& was : before.histograms) {
     const auto is = std::ranges::find(after.histograms, was.name, &SoakHistogram::name);
-    if (is == after.histograms.end() || is->unit != was.unit) continue;
-    const Histogram& a = was.histogram;
-    const Histogram& b = is->histogram;
-    if (a.Count() == 0 || b.Count() == 0) continue;
-    CompareQuantile(was, *is, 0.5, "median",
-                    statistics::MannWhitneyGreater(a, most_before, b, most_after),
-                    statistics::MannWhitneyGreater(b, most_after, a, most_before), figures);
-    CompareQuantile(was, *is, 0.99, "99 %", statistics::TailGreater(a, most_before, b, most_after),
-                    statistics::TailGreater(b, most_after, a, most_before), figures);
+    if (is == after.histograms.end() || is->unit != was.unit || IsOfFaults(was)) continue;
+    if (was.histogram.Count() == 0 || is->histogram.Count() == 0) continue;
+    const bool by_block = !was.blocks.empty() && !is->blocks.empty();
+    const std::string why_not = !blocks.why_none.empty() ? blocks.why_none
+                                : by_block               ? ""
+                                                         : kOneEvent;
+    AddSeries(QuantileOf(was, *is, 0.5, "median"),
+              SeriesOf(was, *is, blocks.count, &BlockQuantiles::p50), why_not, figures);
+    AddSeries(QuantileOf(was, *is, 0.99, "99 %"),
+              SeriesOf(was, *is, blocks.count, &BlockQuantiles::p99), why_not, figures);
   }
 }
 
@@ -161,70 +222,163 @@ void CompareSlopes(const SoakResult& before, const SoakResult& after, Figures* f
   }
 }
 
+// What the faults of one kind say: those of one block of time may share a cause, and come to one
+// value.
+struct FaultEvidence {
+  std::vector<double> noticed_s;  // the median of each block
+  std::vector<double> recovered_s;
+  std::size_t late = 0;  // blocks with any
+  std::size_t without_effect = 0;
+  std::size_t blocks = 0;
+};
+
+std::map<std::string, FaultEvidence> EvidenceOf(const SoakResult& result, double block_s) {
+  std::vector<std::vector<SoakFault>> by_block(kSoakBlocks);
+  for (const SoakFault& fault : result.faults) {
+    by_block[BlockOf(fault.at_s, block_s)].push_back(fault);
+  }
+  std::map<std::string, FaultEvidence> evidence;
+  for (const std::vector<SoakFault>& faults : by_block) {
+    for (const FaultSummary& summary : SummariesOf(faults)) {
+      FaultEvidence& kind = evidence[summary.kind];
+      ++kind.blocks;
+      if (summary.late > 0) ++kind.late;
+      if (summary.observed < summary.planned) ++kind.without_effect;
+      if (const auto noticed_s = MedianOf(summary.noticed_s)) kind.noticed_s.push_back(*noticed_s);
+      if (const auto back_s = MedianOf(summary.recovered_s)) kind.recovered_s.push_back(*back_s);
+    }
+  }
+  return evidence;
+}
+
+// The figure is that of all faults, the test that of the blocks.
 void CompareTimes(const std::string& what, const std::vector<double>& was,
-                  const std::vector<double>& is, Figures* figures) {
+                  const std::vector<double>& blocks_before, const std::vector<double>& is,
+                  const std::vector<double>& blocks_after, Figures* figures) {
   if (was.empty() || is.empty()) return;
   const double median_before = *MedianOf(was);
   const double median_after = *MedianOf(is);
   figures->Add({.figure = {.what = what,
                            .before = FormatSeconds(median_before),
                            .after = FormatSeconds(median_after)},
-                .p_worse = statistics::MannWhitneyGreater(was, is),
-                .p_better = statistics::MannWhitneyGreater(is, was),
+                .p_worse = statistics::MannWhitneyGreater(blocks_before, blocks_after),
+                .p_better = statistics::MannWhitneyGreater(blocks_after, blocks_before),
                 .may_be_worse = GrewEnough(median_before, median_after),
                 .may_be_better = GrewEnough(median_after, median_before)});
 }
 
-void CompareShares(const std::string& what, std::size_t hits_before, std::size_t of_before,
-                   std::size_t hits_after, std::size_t of_after, Figures* figures) {
-  if (of_before == 0 || of_after == 0) return;
-  figures->Add(
-      {.figure = {.what = what,
-                  .before = fmt::format("{} of {}", hits_before, of_before),
-                  .after = fmt::format("{} of {}", hits_after, of_after)},
-       .p_worse = statistics::ShareGreater(hits_before, of_before, hits_after, of_after),
-       .p_better = statistics::ShareGreater(hits_after, of_after, hits_before, of_before)});
+struct Share {
+  std::size_t hits = 0;
+  std::size_t of = 0;
+};
+
+void CompareShares(const std::string& what, Share was, Share blocks_before, Share is,
+                   Share blocks_after, Figures* figures) {
+  if (was.of == 0 || is.of == 0) return;
+  const auto greater = [](Share a, Share b) {
+    return statistics::ShareGreater(a.hits, a.of, b.hits, b.of);
+  };
+  figures->Add({.figure = {.what = what,
+                           .before = fmt::format("{} of {}", was.hits, was.of),
+                           .after = fmt::format("{} of {}", is.hits, is.of)},
+                .p_worse = greater(blocks_before, blocks_after),
+                .p_better = greater(blocks_after, blocks_before)});
+}
+
+void CompareKind(const FaultSummary& was, const FaultEvidence& a, const FaultSummary& is,
+                 const FaultEvidence& b, Figures* figures) {
+  CompareTimes(is.kind + ", noticed after", was.noticed_s, a.noticed_s, is.noticed_s, b.noticed_s,
+               figures);
+  CompareTimes(is.kind + ", recovered after", was.recovered_s, a.recovered_s, is.recovered_s,
+               b.recovered_s, figures);
+  CompareShares(is.kind + ", noticed late", {was.late, was.noticed_s.size()},
+                {a.late, a.noticed_s.size()}, {is.late, is.noticed_s.size()},
+                {b.late, b.noticed_s.size()}, figures);
+  CompareShares(is.kind + ", without effect", {was.planned - was.observed, was.planned},
+                {a.without_effect, a.blocks}, {is.planned - is.observed, is.planned},
+                {b.without_effect, b.blocks}, figures);
 }
 
 void CompareFaults(const SoakResult& before, const SoakResult& after, Figures* figures) {
+  const double block_s =
+      BlockSeconds(std::max({before.planned_s, before.ran_s, after.planned_s, after.ran_s}));
+  auto evidence_before = EvidenceOf(before, block_s);
+  auto evidence_after = EvidenceOf(after, block_s);
   const std::vector<FaultSummary> kinds_before = SummariesOf(before.faults);
   for (const FaultSummary& is : SummariesOf(after.faults)) {
     const auto was = std::ranges::find(kinds_before, is.kind, &FaultSummary::kind);
     if (was == kinds_before.end()) continue;
-    CompareTimes(is.kind + ", noticed after", was->noticed_s, is.noticed_s, figures);
-    CompareTimes(is.kind + ", recovered after", was->recovered_s, is.recovered_s, figures);
-    CompareShares(is.kind + ", noticed late", was->late, was->noticed_s.size(), is.late,
-                  is.noticed_s.size(), figures);
-    CompareShares(is.kind + ", without effect", was->planned - was->observed, was->planned,
-                  is.planned - is.observed, is.planned, figures);
+    CompareKind(*was, evidence_before[is.kind], is, evidence_after[is.kind], figures);
   }
 }
 
-void CompareCount(const std::string& what, std::uint64_t was, double exposure_before,
-                  std::uint64_t is, double exposure_after, Figures* figures) {
-  if (was == 0 && is == 0) return;
-  figures->Add(
-      {.figure = {.what = what, .before = fmt::format("{}", was), .after = fmt::format("{}", is)},
-       .p_worse = statistics::RateGreater(was, exposure_before, is, exposure_after),
-       .p_better = statistics::RateGreater(is, exposure_after, was, exposure_before)});
+std::vector<double> Numbers(const std::vector<std::uint64_t>& counts, std::size_t blocks) {
+  std::vector<double> numbers(blocks);
+  for (std::size_t i = 0; i < std::min(blocks, counts.size()); ++i) {
+    numbers[i] = static_cast<double>(counts[i]);
+  }
+  return numbers;
+}
+
+struct CountByBlock {
+  std::uint64_t all = 0;
+  std::vector<std::uint64_t> by_block;
+};
+
+void CompareCount(const std::string& what, const CountByBlock& was, const CountByBlock& is,
+                  const CommonBlocks& blocks, Figures* figures) {
+  if (was.all == 0 && is.all == 0) return;
+  AddSeries({.figure = {.what = what,
+                        .before = fmt::format("{}", was.all),
+                        .after = fmt::format("{}", is.all)}},
+            {Numbers(was.by_block, blocks.count), Numbers(is.by_block, blocks.count)},
+            blocks.why_none, figures);
+}
+
+// By invariant; all together under no name.
+std::map<std::string, CountByBlock> ViolationsOf(const SoakResult& result) {
+  std::map<std::string, CountByBlock> violations;
+  const auto count = [&result](CountByBlock* counted, double time_s) {
+    counted->by_block.resize(kSoakBlocks);
+    ++counted->all;
+    ++counted->by_block[BlockOf(time_s, result.block_s)];
+  };
+  for (const SoakViolation& violation : result.violations) {
+    count(&violations[violation.invariant], violation.time_s);
+    count(&violations[{}], violation.time_s);
+  }
+  violations[{}].all = result.violations_counted;
+  return violations;
+}
+
+void CompareViolations(const SoakResult& before, const SoakResult& after, CommonBlocks blocks,
+                       Figures* figures) {
+  for (const SoakResult* result : {&before, &after}) {
+    if (result->violations_counted > result->violations.size()) blocks.why_none = kNotAllListed;
+  }
+  auto was = ViolationsOf(before);
+  auto is = ViolationsOf(after);
+  std::set<std::string> names;
+  for (const auto* by_name : {&was, &is}) {
+    for (const auto& [name, count] : *by_name) names.insert(name);
+  }
+  for (const std::string& name : names) {
+    CompareCount(name.empty() ? "violations" : "violations: " + name, was[name], is[name], blocks,
+                 figures);
+  }
 }
 
 void CompareCounts(const SoakResult& before, const SoakResult& after, Figures* figures) {
-  const double exposure_before = ExposureOf(before);
-  const double exposure_after = ExposureOf(after);
-  const auto compare = [&](const std::string& what, std::uint64_t was, std::uint64_t is) {
-    CompareCount(what, was, exposure_before, is, exposure_after, figures);
-  };
-  std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> invariants;
-  for (const SoakViolation& violation : before.violations) ++invariants[violation.invariant].first;
-  for (const SoakViolation& violation : after.violations) ++invariants[violation.invariant].second;
-  for (const auto& [invariant, counts] : invariants) {
-    compare("violations: " + invariant, counts.first, counts.second);
-  }
-  compare("violations", before.violations_counted, after.violations_counted);
-  compare("near misses", before.near_misses_counted, after.near_misses_counted);
-  compare("reactions that left less than a fifth", before.budget_spent, after.budget_spent);
-  compare("unplanned restarts", before.restarts_unplanned, after.restarts_unplanned);
+  const CommonBlocks blocks = CommonBlocksOf(before, after);
+  CompareViolations(before, after, blocks, figures);
+  CompareCount("near misses", {before.near_misses_counted, before.near_misses_by_block},
+               {after.near_misses_counted, after.near_misses_by_block}, blocks, figures);
+  CompareCount("reactions that left less than a fifth",
+               {before.budget_spent, before.budget_spent_by_block},
+               {after.budget_spent, after.budget_spent_by_block}, blocks, figures);
+  // Each of them is a violation, with its time.
+  CompareCount("unplanned restarts", {before.restarts_unplanned, {}},
+               {after.restarts_unplanned, {}}, {0, kAreViolations}, figures);
 }
 
 void CompareVerdicts(const SoakResult& before, const SoakResult& after, Figures* figures) {
@@ -248,8 +402,17 @@ void CompareVerdicts(const SoakResult& before, const SoakResult& after, Figures*
 }  // namespace
 
 const char* ToString(Change change) {
-  if (change == Change::kWorse) return "worse";
-  return change == Change::kBetter ? "better" : "same";
+  switch (change) {
+    case Change::kWorse:
+      return "worse";
+    case Change::kBetter:
+      return "better";
+    case Change::kUntested:
+      return "untested";
+    case Change::kSame:
+      break;
+  }
+  return "same";
 }
 
 bool SoakComparison::AnyWorse() const {

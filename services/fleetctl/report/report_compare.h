@@ -1,20 +1,29 @@
 // What became worse from one soak to another, and whether chance explains it. Pure.
 //
-//   figures    histograms: as a whole (Mann-Whitney) and in the tail (the share above the 99 %
-//              quantile of both, Fisher). Worse only if that quantile or the median grew by 5 %.
+// A soak's values come in clusters: many vehicles meet one burst of loss, and all heal from one
+// fault. What counts as independent is a block of time (soak_blocks.h), a twentieth of the run,
+// never a value. Two soaks of one duration are compared block by block, so that warm-up meets
+// warm-up:
+//
+//   figures    histograms: median and 99 % of each block (signed ranks, SeriesGreater). Worse only
+//   if
+//              that quantile of the whole run grew by 5 %.
+//   counts     violations by invariant, near misses, reactions that left less than a fifth of their
+//              free distance: the counts of each block, likewise.
+//   faults     by kind: time until noticed, until recovered (Mann-Whitney), from 5 % on; how many
+//              were noticed late, how many had no effect (Fisher). Those of one kind in one block
+//              come to one value.
 //   slopes     each resource of each process by its longest life: the difference against the
 //              widths of both intervals. Worse only from the size of a leak on.
-//   faults     by kind: time until noticed, until recovered (Mann-Whitney), from 5 % on; how
-//              many were noticed late, how many had no effect (Fisher).
-//   counts     violations by invariant, near misses, reactions that left less than a fifth of
-//              their free distance, unplanned restarts over vehicle-hours (conditional
-//              binomial).
 //   verdict    one that no longer passes, samples that are not accounted for, new leaks: not
 //              tested statistically.
+//   untested   shown where they differ, with the reason: values of one event (healing), other
+//              durations, reports without blocks.
 //
-// All tests together report two equal soaks as worse with a probability of at most 0.5 % (Holm at 1
-// %, both directions); a single soak reports a false leak with a probability of 1 %. The values of
-// a histogram are not independent: at most one per vehicle and second counts as evidence.
+// All tests together report two soaks of equal programs as worse with a probability of at most 0.5
+// % (Holm at 1 %, both directions), as far as blocks that follow each other resemble each other no
+// more than a process of first order, and nothing that lasts for all of a run, such as a busier
+// machine, differs. A single soak reports a false leak with a probability of 1 %.
 #pragma once
 
 #include <optional>
@@ -27,7 +36,7 @@ namespace giveway::fleetctl {
 
 inline constexpr double kSignificance = 0.01;
 
-enum class Change : std::uint8_t { kSame, kBetter, kWorse };
+enum class Change : std::uint8_t { kSame, kBetter, kWorse, kUntested };
 const char* ToString(Change change);
 
 struct ComparedFigure {
@@ -35,11 +44,12 @@ struct ComparedFigure {
   std::string before;  // with unit
   std::string after;
   Change change = Change::kSame;
-  std::optional<double> p;  // adjusted; absent: no test was asked
+  std::optional<double> p;   // adjusted; absent: no test was made
+  std::string why_untested;  // empty: it was, or needs no test
 };
 
 struct SoakComparison {
-  std::vector<ComparedFigure> figures;  // worse ones first, then better ones
+  std::vector<ComparedFigure> figures;  // worse ones first, then better, then untested ones
   bool AnyWorse() const;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -12,7 +13,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr std::size_t kNameColumns = 31;
+constexpr std::size_t kNameColumns = 29;
 constexpr std::size_t kFigureColumns = 15;
 
 std::string FormatChance(const std::optional<double>& p) {
@@ -27,10 +28,21 @@ std::string FigureLine(const std::string& change, const std::string& what,
   const std::string figures =
       fmt::format("{:>{}} {:>{}} {:>8}", before, kFigureColumns, after, kFigureColumns, chance);
   if (what.size() <= kNameColumns) {
-    return fmt::format("{:<7}{:<{}}{}\n", change, what, kNameColumns, figures);
+    return fmt::format("{:<9}{:<{}}{}\n", change, what, kNameColumns, figures);
   }
-  return fmt::format("{:<7}{}\n{:<{}}{}\n", change, Shortened(what, 68), "", kNameColumns + 7,
+  return fmt::format("{:<9}{}\n{:<{}}{}\n", change, Shortened(what, 68), "", kNameColumns + 9,
                      figures);
+}
+
+// One line for each reason.
+std::string Untested(const SoakComparison& comparison) {
+  std::map<std::string, std::size_t> reasons;
+  for (const ComparedFigure& figure : comparison.figures) {
+    if (figure.change == Change::kUntested) ++reasons[figure.why_untested];
+  }
+  std::string text;
+  for (const auto& [why, count] : reasons) text += fmt::format("  {} untested: {}\n", count, why);
+  return text;
 }
 
 }  // namespace
@@ -49,9 +61,11 @@ std::string ToText(const SoakComparison& comparison, bool all) {
   const auto count = [&comparison](Change change) {
     return std::ranges::count(comparison.figures, change, &ComparedFigure::change);
   };
-  return text + fmt::format("{} worse, {} better, {} the same{}\n", count(Change::kWorse),
-                            count(Change::kBetter), same,
-                            all || same == 0 ? "" : " (--all shows them)");
+  return text +
+         fmt::format("{} worse, {} better, {} untested, {} the same{}\n", count(Change::kWorse),
+                     count(Change::kBetter), count(Change::kUntested), same,
+                     all || same == 0 ? "" : " (--all shows them)") +
+         Untested(comparison);
 }
 
 std::string ToJson(const SoakComparison& comparison) {
@@ -64,6 +78,7 @@ std::string ToJson(const SoakComparison& comparison) {
     object["after"] = figure.after;
     object["change"] = ToString(figure.change);
     object["p"] = OrNull(figure.p);
+    if (!figure.why_untested.empty()) object["why_untested"] = figure.why_untested;
     return object;
   });
   return JsonText(std::move(json));

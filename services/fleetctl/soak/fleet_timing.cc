@@ -20,9 +20,14 @@ HistogramUnit UnitOf(DriveFigure figure) {
   }
 }
 
+BlockQuantiles QuantilesOf(const Histogram& histogram) {
+  return {histogram.Count(), histogram.Quantile(0.5), histogram.Quantile(0.99)};
+}
+
 }  // namespace
 
 void FleetTiming::Fold(const VehicleStatus& status, double time_s) {
+  EndBlocksBefore(time_s);
   DriveFigures& before = before_[status.vehicle];
   const DriveFigures& now = status.timing;
   const bool restarted = now.Of(DriveFigure::kTurn).count < before.Of(DriveFigure::kTurn).count ||
@@ -30,12 +35,29 @@ void FleetTiming::Fold(const VehicleStatus& status, double time_s) {
   if (restarted) before = {};
   for (std::size_t i = 0; i < kDriveFigures; ++i) TakeNewest(status, i, time_s);
   budget_spent_ += now.budget_spent - before.budget_spent;
+  spent_by_block_.Note(time_s, now.budget_spent - before.budget_spent);
   if (now.narrowest && now.narrowest != before.narrowest &&
       (!narrowest_ || now.narrowest->ShareLeft() < narrowest_->share_left)) {
     narrowest_ = {time_s, status.vehicle, now.narrowest->reaction_m, now.narrowest->free_m,
                   now.narrowest->ShareLeft()};
   }
   before = now;
+}
+
+void FleetTiming::EndBlocksBefore(double time_s) {
+  for (const std::size_t now = BlockOf(time_s, block_s_); block_ < now; ++block_) {
+    for (std::size_t i = 0; i < kDriveFigures; ++i) {
+      ended_[i].push_back(QuantilesOf(fresh_[i]));
+      fresh_[i] = {};
+    }
+  }
+}
+
+std::vector<BlockQuantiles> FleetTiming::BlocksOf(std::size_t figure) const {
+  if (!(block_s_ > 0)) return {};
+  std::vector<BlockQuantiles> blocks = ended_[figure];
+  blocks.push_back(QuantilesOf(fresh_[figure]));
+  return blocks;
 }
 
 void FleetTiming::TakeNewest(const VehicleStatus& status, std::size_t figure, double time_s) {
@@ -54,6 +76,7 @@ void FleetTiming::Take(VehicleId vehicle, DriveFigure figure, std::uint32_t valu
   const bool is_time = UnitOf(figure) == HistogramUnit::kNanoseconds;
   const std::int64_t counted = is_time ? kNanosecondsPerUs * value : std::int64_t{value};
   histograms_[static_cast<std::size_t>(figure)].Add(counted);
+  if (block_s_ > 0) fresh_[static_cast<std::size_t>(figure)].Add(counted);
   if (figure != DriveFigure::kBeaconAge || Nanoseconds(counted) <= most_age_) return;
   StaleDecisions& stale = stale_[vehicle];
   if (stale.count++ == 0) stale.first_s = time_s;
@@ -73,6 +96,7 @@ std::vector<SoakHistogram> FleetTiming::Histograms() const {
       measured.budgets.push_back(
           {1.0, static_cast<std::int64_t>((1 - kLeastShareLeft) * kPartsPerMillion)});
     }
+    measured.blocks = BlocksOf(i);
     all.push_back(std::move(measured));
   }
   return all;

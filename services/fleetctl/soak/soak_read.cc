@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "services/fleetctl/soak/soak_blocks.h"
 #include "services/fleetctl/soak/soak_schema.h"
 
 namespace giveway::fleetctl {
@@ -67,6 +68,39 @@ SoakFault FaultFrom(const schema::SoakFault& message) {
   return fault;
 }
 
+// Of a list that has one number for each block of time, or for fewer.
+template <typename Numbers>
+std::vector<std::uint64_t> ByBlockFrom(const Numbers& numbers, const std::string& field,
+                                       Complaints* complaints) {
+  std::vector<std::uint64_t> counts;
+  if (static_cast<std::size_t>(numbers.size()) > kSoakBlocks) {
+    complaints->Add(field, fmt::format("{} numbers", numbers.size()),
+                    fmt::format("at most {}", kSoakBlocks));
+    return counts;
+  }
+  for (const double number : numbers) counts.push_back(CountOf(number, field, complaints));
+  return counts;
+}
+
+std::vector<BlockQuantiles> BlocksFrom(const schema::SoakHistogram& message,
+                                       const std::string& field, Complaints* complaints) {
+  const auto counts = ByBlockFrom(message.block_values(), field + ".block_values", complaints);
+  const auto p50 = ByBlockFrom(message.block_p50(), field + ".block_p50", complaints);
+  const auto p99 = ByBlockFrom(message.block_p99(), field + ".block_p99", complaints);
+  if (p50.size() != counts.size() || p99.size() != counts.size()) {
+    complaints->Add(field + ".block_p50 or block_p99",
+                    fmt::format("{} and {} numbers", p50.size(), p99.size()),
+                    fmt::format("as many as block_values: {}", counts.size()));
+    return {};
+  }
+  std::vector<BlockQuantiles> blocks;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    blocks.push_back(
+        {counts[i], static_cast<std::int64_t>(p50[i]), static_cast<std::int64_t>(p99[i])});
+  }
+  return blocks;
+}
+
 SoakHistogram HistogramFrom(const schema::SoakHistogram& message, const std::string& field,
                             Complaints* complaints) {
   SoakHistogram measured;
@@ -98,6 +132,7 @@ SoakHistogram HistogramFrom(const schema::SoakHistogram& message, const std::str
     complaints->Add(field, fmt::format("{} buckets", buckets.size()),
                     "ascending buckets of a histogram, min and max in the first and the last");
   }
+  measured.blocks = BlocksFrom(message, field, complaints);
   for (const schema::SoakBudget& budget : message.budgets()) {
     measured.budgets.push_back(
         {budget.quantile(),
@@ -233,6 +268,11 @@ void ReadFigures(const schema::SoakReport& message, SoakResult* result, Complain
   }
   result->resumed_at_s = {message.resumed_at_s().begin(), message.resumed_at_s().end()};
   result->budget_spent = CountOf(message.budget_spent(), "budget_spent", complaints);
+  result->block_s = message.block_s();
+  result->near_misses_by_block =
+      ByBlockFrom(message.near_misses_by_block(), "near_misses_by_block", complaints);
+  result->budget_spent_by_block =
+      ByBlockFrom(message.budget_spent_by_block(), "budget_spent_by_block", complaints);
   result->timing_values_lost =
       CountOf(message.timing_values_lost(), "timing_values_lost", complaints);
   result->restarts_planned = message.restarts_planned();

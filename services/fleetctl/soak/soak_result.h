@@ -96,11 +96,21 @@ struct HistogramBudget {
   std::int64_t most = 0;
 };
 
+// The values of one block of time: soak_blocks.h.
+struct BlockQuantiles {
+  std::uint64_t count = 0;
+  std::int64_t p50 = 0;  // 0 where nothing was counted
+  std::int64_t p99 = 0;
+
+  friend constexpr bool operator==(const BlockQuantiles&, const BlockQuantiles&) = default;
+};
+
 struct SoakHistogram {
   std::string name;  // "reaction", "beacon_age", "tick_jitter"
   HistogramUnit unit = HistogramUnit::kNanoseconds;
   Histogram histogram;
   std::vector<HistogramBudget> budgets;
+  std::vector<BlockQuantiles> blocks;  // from the first on; empty: not kept by block
 };
 // All budgets are kept, or nothing was measured.
 bool WithinBudgets(const SoakHistogram& measured);
@@ -203,6 +213,10 @@ struct SoakResult {
   std::uint64_t ticks_unseen = 0;
   std::vector<NearMiss> near_misses;
   std::uint64_t near_misses_counted = 0;
+  // Lengths of time for comparisons: soak_blocks.h. 0: nothing is kept by block.
+  double block_s = 0;
+  std::vector<std::uint64_t> near_misses_by_block;   // up to the last with any
+  std::vector<std::uint64_t> budget_spent_by_block;  // likewise
   std::vector<ModeChange> modes;
   std::uint64_t modes_counted = 0;
 

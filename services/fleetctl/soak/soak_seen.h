@@ -64,6 +64,7 @@ struct SoakSeen {
   std::uint64_t ticks_unseen = 0;
   std::vector<NearMiss> near_misses;
   std::uint64_t near_misses_counted = 0;
+  std::vector<std::uint64_t> near_misses_by_block;
   std::vector<ModeChange> modes;
   std::uint64_t modes_counted = 0;
   std::vector<ResourceSlope> slopes;

@@ -106,7 +106,8 @@ SoakSession::SoakSession(const FleetSpec& spec, const Scenario& scenario,
           fleet_, [this](VehicleId vehicle) { return faults_.IsAway(MemberOf(vehicle)); },
           [this](VehicleId vehicle) { return faults_.IsAwayForGood(MemberOf(vehicle)); }),
       near_(RadiiOf(scenario, fleet_)),
-      timing_(MostBeaconAge(scenario)),
+      near_by_block_(BlockSeconds(phases.end_s)),
+      timing_(MostBeaconAge(scenario), BlockSeconds(phases.end_s)),
       tick_period_s_(Seconds(scenario.tick_period)),
       turned_(SteadyNow()) {
   const std::string& ring_s = spec.options.record_ring;
@@ -151,6 +152,7 @@ void SoakSession::Gather(SoakSeen* seen) const {
   seen->ticks_unseen = invariants_.TicksUnseen();
   seen->near_misses = near_.Narrowest();
   seen->near_misses_counted = near_.Count();
+  seen->near_misses_by_block = near_by_block_.Counts();
   seen->timing = timing_;
   seen->accounting = accounting_;
   if (rings_) seen->kept_rings = rings_->Kept();
@@ -222,7 +224,9 @@ void SoakSession::Drain() {
   watch_.Fold(observed, SteadyNow());
   invariants_.Fold(observed);
   NoteBroken();
+  const std::uint64_t near_before = near_.Count();
   near_.Fold(observed.truths);
+  near_by_block_.Note(watch_.TimeSeconds(SteadyNow()), near_.Count() - near_before);
   if (black_box_) black_box_->Fold(observed, SteadyNow());
   for (const VehicleStatus& status : observed.statuses) {
     timing_.Fold(status, watch_.TimeSeconds(SteadyNow()));

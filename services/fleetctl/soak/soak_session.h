@@ -94,6 +94,7 @@ class SoakSession {
   PauseMeter pauses_;
   StallMonitor stalls_{std::chrono::milliseconds(20)};  // limits of detection are 100 ms and more
   NearMisses near_;
+  BlockCounts near_by_block_;
   FleetTiming timing_;
   FleetAccounting accounting_;
   std::optional<RingKeeper> rings_;

@@ -92,6 +92,7 @@ class SoakEvaluation {
     result_.ticks_unseen = from_.seen.ticks_unseen;
     result_.near_misses = from_.seen.near_misses;
     result_.near_misses_counted = from_.seen.near_misses_counted;
+    result_.near_misses_by_block = from_.seen.near_misses_by_block;
     result_.modes = from_.seen.modes;
     result_.modes_counted = from_.seen.modes_counted;
     result_.pauses = from_.seen.pauses;
@@ -323,6 +324,8 @@ class SoakEvaluation {
     }
     result_.narrowest_margin = timing.Narrowest();
     result_.budget_spent = timing.BudgetSpent();
+    result_.budget_spent_by_block = timing.BudgetSpentByBlock();
+    result_.block_s = timing.BlockLength_s();
     result_.timing_values_lost = timing.Missed();
     for (const auto& [vehicle, stale] : timing.Stale()) {
       AddViolation(

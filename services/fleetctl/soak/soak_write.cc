@@ -83,6 +83,11 @@ void Write(const SoakHistogram& measured, schema::SoakHistogram* message) {
   message->set_p50(AsDouble(histogram.Quantile(0.5)));
   message->set_p99(AsDouble(histogram.Quantile(0.99)));
   message->set_p999(AsDouble(histogram.Quantile(0.999)));
+  for (const BlockQuantiles& block : measured.blocks) {
+    message->add_block_values(AsDouble(block.count));
+    message->add_block_p50(AsDouble(block.p50));
+    message->add_block_p99(AsDouble(block.p99));
+  }
 }
 
 void Write(const ResourceSlope& row, schema::SoakSlope* message) {
@@ -151,6 +156,16 @@ void WriteHead(const SoakResult& result, schema::SoakReport* message) {
   message->set_command(WellFormed(result.command));
 }
 
+void WriteBlocks(const SoakResult& result, schema::SoakReport* message) {
+  message->set_block_s(Printable(result.block_s));
+  for (const std::uint64_t count : result.near_misses_by_block) {
+    message->add_near_misses_by_block(AsDouble(count));
+  }
+  for (const std::uint64_t count : result.budget_spent_by_block) {
+    message->add_budget_spent_by_block(AsDouble(count));
+  }
+}
+
 }  // namespace
 
 schema::SoakReport SchemaOf(const SoakResult& result) {
@@ -197,6 +212,7 @@ schema::SoakReport SchemaOf(const SoakResult& result) {
   }
   for (const double at_s : result.resumed_at_s) message.add_resumed_at_s(Printable(at_s));
   message.set_budget_spent(AsDouble(result.budget_spent));
+  WriteBlocks(result, &message);
   message.set_timing_values_lost(AsDouble(result.timing_values_lost));
   message.set_restarts_planned(result.restarts_planned);
   message.set_restarts_unplanned(result.restarts_unplanned);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -41,37 +42,49 @@ TEST(MannWhitney, ManyValuesAgreeWithFew) {
   EXPECT_NEAR(MannWhitneyGreater(before, after), exact, 0.01);
 }
 
-Histogram Normal(std::uint64_t seed, int count, double mean_ms, double sigma_ms) {
-  Random random(seed);
-  Histogram histogram;
-  for (int i = 0; i < count; ++i) {
-    histogram.Add(static_cast<std::int64_t>((mean_ms + random.Gaussian(sigma_ms)) * 1e6));
+// Of the 2^5 choices of signs one has all ranks positive.
+TEST(Series, OfFewPlacesAreCountedOut) {
+  EXPECT_NEAR(SeriesGreater(Values{1, 2, 3, 4, 5}, Values{4, 3, 8, 6, 9}), 1.0 / 32, 1e-12);
+  EXPECT_GT(SeriesGreater(Values{4, 3, 8, 6, 9}, Values{1, 2, 3, 4, 5}), 0.99);
+  EXPECT_NEAR(SeriesGreater(Values{1, 1, 1, 1}, Values{2, 2, 2, 2}), 1.0 / 16, 1e-12);
+  EXPECT_EQ(SeriesGreater(Values{}, Values{1}), 1);
+  EXPECT_EQ(SeriesGreater(Values{1, 2}, Values{1, 2}), 1);
+}
+
+// What differs from place to place in the same way in both is no difference.
+TEST(Series, AreComparedPlaceByPlace) {
+  Random random(5);
+  Values before, after;
+  for (int i = 0; i < 20; ++i) {
+    before.push_back(100.0 * i + random.Uniform(0, 1));
+    after.push_back(100.0 * i + random.Uniform(1, 2));
   }
-  return histogram;
+  EXPECT_LT(SeriesGreater(before, after), 1e-5);
+  EXPECT_GT(MannWhitneyGreater(before, after), 0.3);
 }
 
-TEST(MannWhitneyOfHistograms, SeesAShiftAndOnlyItsDirection) {
-  const Histogram before = Normal(1, 2000, 50, 10);
-  const Histogram after = Normal(2, 2000, 53, 10);
-  EXPECT_LT(MannWhitneyGreater(before, 1e9, after, 1e9), 1e-9);
-  EXPECT_GT(MannWhitneyGreater(after, 1e9, before, 1e9), 0.999);
+// Twenty values, each like the one before it to the share `alike`.
+Values Wandering(Random* random, double alike) {
+  Values values{random->Gaussian(1)};
+  while (values.size() < 20) {
+    values.push_back(alike * values.back() + random->Gaussian(std::sqrt(1 - alike * alike)));
+  }
+  return values;
 }
 
-// A hundred times the values from the same few seconds are no more evidence.
-TEST(MannWhitneyOfHistograms, WeighsNoMoreThanIsIndependent) {
-  const Histogram before = Normal(1, 20'000, 50, 10);
-  const Histogram after = Normal(2, 20'000, 50.6, 10);
-  EXPECT_LT(MannWhitneyGreater(before, 1e9, after, 1e9), 1e-6);
-  EXPECT_GT(MannWhitneyGreater(before, 200, after, 200), 0.1);
+int FoundOf2000(double alike, double below) {
+  Random random(7);
+  int found = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Values before = Wandering(&random, alike);
+    found += SeriesGreater(before, Wandering(&random, alike)) < below ? 1 : 0;
+  }
+  return found;
 }
 
-TEST(TailOfHistograms, SeesWhatTheMedianDoesNot) {
-  const Histogram before = Normal(1, 5000, 50, 5);
-  Histogram after = Normal(2, 4900, 50, 5);
-  after.Merge(Normal(3, 100, 150, 5));
-  EXPECT_LT(TailGreater(before, 1e9, after, 1e9), 1e-9);
-  EXPECT_GT(TailGreater(after, 1e9, before, 1e9), 0.999);
-  EXPECT_GT(MannWhitneyGreater(before, 1e9, after, 1e9), 0.001);
+TEST(Series, NeighboursThatAreAlikeAreNoEvidence) {
+  EXPECT_LE(FoundOf2000(0, 0.01), 20);
+  EXPECT_LE(FoundOf2000(0.5, 0.01), 60);
 }
 
 // Fisher's lady tasting tea: all 4 of 4 and none of 4 by chance 1 of 70; 3 and 1: 17 of 70.
@@ -101,15 +114,6 @@ TEST(Shares, ImpossibleCountsSayNothing) {
 // Summed by hand, in logarithms of factorials.
 TEST(Shares, OfAMillionAreStillCountedOut) {
   EXPECT_NEAR(ShareGreater(10'000, 1'000'000, 10'300, 1'000'000), 0.01745806, 1e-7);
-}
-
-// 5 events in equal time, all in the second half: 1 of 32.
-TEST(Rates, AreTheConditionalBinomialTest) {
-  EXPECT_NEAR(RateGreater(0, 1, 5, 1), 1.0 / 32, 1e-12);
-  EXPECT_NEAR(RateGreater(0, 3, 2, 1), 1.0 / 16, 1e-12);
-  EXPECT_NEAR(RateGreater(5, 1, 0, 1), 1, 1e-12);
-  EXPECT_EQ(RateGreater(1, 0, 1, 0), 1);
-  EXPECT_NEAR(RateGreater(1'000'000, 1, 1'003'000, 1), 0.01704418, 1e-7);
 }
 
 TEST(Holm, TakesAllTestsTogether) {

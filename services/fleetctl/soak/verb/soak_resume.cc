@@ -60,6 +60,14 @@ void JoinHistograms(const SoakResult& rest, SoakResult* joined) {
   }
 }
 
+// Those of the two legs are of different lengths, and say nothing side by side.
+void DropBlocks(SoakResult* joined) {
+  joined->block_s = 0;
+  joined->near_misses_by_block.clear();
+  joined->budget_spent_by_block.clear();
+  for (SoakHistogram& measured : joined->histograms) measured.blocks.clear();
+}
+
 void JoinCounts(const SoakResult& rest, double by_s, SoakResult* joined) {
   joined->violations_counted += rest.violations_counted;
   joined->ticks_judged += rest.ticks_judged;
@@ -174,6 +182,7 @@ SoakResult Joined(const SoakResult& so_far, const SoakResult& rest) {
   AppendSlopes(rest.slopes, by_s, &joined.slopes);
   Append(rest.accounting, &joined.accounting);
   JoinHistograms(rest, &joined);
+  DropBlocks(&joined);
   JoinCounts(rest, by_s, &joined);
   JoinVerdicts(rest, &joined);
   return joined;

@@ -43,7 +43,8 @@ class VirtualSoak {
             SoakFleet(scenario, 0), [this](VehicleId vehicle) { return away_.contains(vehicle); },
             [this](VehicleId vehicle) { return gone_.contains(vehicle); }),
         near_(RadiiOf(scenario, SoakFleet(scenario, 0))),
-        timing_(MostBeaconAge(scenario)) {
+        near_by_block_(BlockSeconds(phases.end_s)),
+        timing_(MostBeaconAge(scenario), BlockSeconds(phases.end_s)) {
     for (const VehicleOptions& vehicle : scenario.vehicles) {
       observed_.push_back({.vehicle = vehicle.id});
       timings_.emplace_back(vehicle);
@@ -73,7 +74,9 @@ class VirtualSoak {
     MeasureTurns();
     const link::Observed news = News();
     watch_.Fold(news, Now());
+    const std::uint64_t near_before = near_.Count();
     near_.Fold(news.truths);
+    near_by_block_.Note(Time_s(), near_.Count() - near_before);
     for (const VehicleStatus& status : news.statuses) timing_.Fold(status, Time_s());
     CarryOut(clock_.TakeDue(Time_s()));
     course_.NoteModes(watch_, Now(), &seen_);
@@ -162,6 +165,7 @@ class VirtualSoak {
     }
     seen_.near_misses = near_.Narrowest();
     seen_.near_misses_counted = near_.Count();
+    seen_.near_misses_by_block = near_by_block_.Counts();
     seen_.timing = timing_;
   }
 
@@ -176,6 +180,7 @@ class VirtualSoak {
   FaultClock clock_;
   FleetCourse course_;
   NearMisses near_;
+  BlockCounts near_by_block_;
   FleetTiming timing_;
   std::vector<DriveTiming> timings_;  // in the order of the scenario
   std::set<VehicleId> away_;

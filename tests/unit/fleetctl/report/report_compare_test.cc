@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "services/fleetctl/report/report_show.h"
+#include "services/fleetctl/soak/soak_blocks.h"
 #include "tests/unit/fleetctl/soak/soak_results.h"
 
 namespace giveway::fleetctl {
@@ -41,6 +42,74 @@ TEST(ComparedSoaks, EqualOnesAreSeldomCalledWorse) {
   EXPECT_LE(worse, 3);
 }
 
+// As soaks are: a burst concerns many values at a time, and all that it delays is late together.
+SoakResult ClusteredSoak(std::uint64_t seed) {
+  SoakResult result = SampleSoak(seed);
+  Random random(seed);
+  SoakHistogram age{.name = "beacon_age"};
+  BlockCounts spent(result.block_s);
+  for (std::size_t block = 0; block < kSoakBlocks; ++block) {
+    const bool burst = random.Uniform(0, 1) < 0.2;
+    std::vector<double> values_ms(150, 50.0);
+    for (int i = 0; burst && i < 5 + random.Uniform(0, 30); ++i) values_ms[i] = 150;
+    AddBlock(&age, values_ms);
+    const double reactions = burst ? random.Uniform(0, 40) : 0;
+    spent.Note(static_cast<double>(block) * result.block_s, static_cast<std::uint64_t>(reactions));
+  }
+  result.histograms[1] = age;
+  result.budget_spent_by_block = spent.Counts();
+  for (const std::uint64_t count : spent.Counts()) result.budget_spent += count;
+  SoakHistogram healing{.name = "healing"};
+  healing.histogram.Add(random.Uniform(0, 1) < 0.5 ? 100'000'000 : 150'000'000, kSampleVehicles);
+  result.histograms.push_back(healing);
+  // Eight faults of a kind in each of a few blocks, all over with the last of them.
+  for (std::size_t cluster = 0; cluster < 6; ++cluster) {
+    const double recovered_s = 0.5 + random.Uniform(0, 2);
+    for (std::uint32_t nth = 0; nth < 8; ++nth) {
+      result.faults.push_back(SampleFault(nth, &random));
+      result.faults.back().kind = "loss";
+      result.faults.back().at_s = 30 + 20.0 * static_cast<double>(cluster) + 0.1 * nth;
+      result.faults.back().recovered_after_s = recovered_s;
+    }
+  }
+  return result;
+}
+
+TEST(ComparedSoaks, ValuesInClustersAreNoMoreEvidenceThanTheClusters) {
+  int worse = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    if (!Worse(ClusteredSoak(seed), ClusteredSoak(seed + 1000)).empty()) ++worse;
+  }
+  RecordProperty("worse_of_200", worse);
+  EXPECT_LE(worse, 3);
+}
+
+TEST(ComparedSoaks, OneEventIsShownAndNotTested) {
+  SoakResult before = SampleSoak(1);
+  SoakResult after = SampleSoak(1);
+  before.histograms = after.histograms = {{.name = "healing"}};
+  before.histograms[0].histogram.Add(100'000'000, kSampleVehicles);
+  after.histograms[0].histogram.Add(150'000'000, kSampleVehicles);
+  const SoakComparison comparison = Compare(before, after);
+  EXPECT_FALSE(comparison.AnyWorse());
+  EXPECT_THAT(Changed(comparison, Change::kUntested),
+              ElementsAre("healing, median", "healing, 99 %"));
+  EXPECT_EQ(comparison.figures[0].after, "150.0 ms");
+  EXPECT_FALSE(comparison.figures[0].p);
+  EXPECT_THAT(ToText(comparison, false), HasSubstr("2 untested: all values stem from one event"));
+  EXPECT_THAT(ToJson(comparison), HasSubstr("\"why_untested\":\"all values"));
+}
+
+TEST(ComparedSoaks, WithoutBlocksHistogramsAndCountsAreNotTested) {
+  SoakResult after = SampleSoak(2);
+  after.block_s = 0;
+  after.near_misses_counted = 300;
+  const SoakComparison comparison = Compare(SampleSoak(1), after);
+  EXPECT_FALSE(comparison.AnyWorse());
+  EXPECT_THAT(Changed(comparison, Change::kUntested), Contains("near misses"));
+  EXPECT_THAT(ToText(comparison, false), HasSubstr("untested: a report without blocks of time"));
+}
+
 TEST(ComparedSoaks, OneIsNotWorseThanItself) {
   EXPECT_THAT(Worse(SampleSoak(1), SampleSoak(1)), IsEmpty());
 }
@@ -58,6 +127,7 @@ TEST(ComparedSoaks, OlderBeaconsAreFound) {
 TEST(ComparedSoaks, ALongerTailIsFound) {
   SoakResult after = SampleSoak(2);
   after.histograms[0].histogram.Add(400'000'000, 90);
+  for (BlockQuantiles& block : after.histograms[0].blocks) block.p99 = 400'000'000;
   EXPECT_THAT(Worse(SampleSoak(1), after), ElementsAre("reaction, 99 %"));
 }
 
@@ -65,10 +135,11 @@ TEST(ComparedSoaks, ALongerTailIsFound) {
 TEST(ComparedSoaks, ASmallChangeIsNoneHoweverSure) {
   SoakResult before = SampleSoak(1);
   SoakResult after = SampleSoak(2);
-  before.ran_s = after.ran_s = 1e6;
   before.histograms = after.histograms = {{.name = "reaction"}};
-  before.histograms[0].histogram.Add(100'000'000, 1'000'000);
-  after.histograms[0].histogram.Add(103'000'000, 1'000'000);
+  for (std::size_t block = 0; block < kSoakBlocks; ++block) {
+    AddBlock(&before.histograms[0], std::vector(1000, 100.0));
+    AddBlock(&after.histograms[0], std::vector(1000, 103.0));
+  }
   EXPECT_THAT(Worse(before, after), IsEmpty());
 }
 
@@ -98,27 +169,67 @@ TEST(ComparedSoaks, FaultsThatNoLongerHaveAnEffectAreFound) {
   EXPECT_THAT(Worse(SampleSoak(1), after), ElementsAre("kill, without effect"));
 }
 
+void Violate(SoakResult* result, int times, double every_s) {
+  for (int i = 0; i < times; ++i) {
+    result->violations.push_back({every_s * i, VehicleId{1}, kNoVehicle, "order", "", ""});
+  }
+  result->violations_counted = result->violations.size();
+}
+
 TEST(ComparedSoaks, MoreViolationsAreFoundAndOneMoreIsChance) {
   SoakResult before = SampleSoak(1);
   SoakResult after = SampleSoak(2);
-  before.violations.resize(2, {1, VehicleId{1}, kNoVehicle, "order", "", ""});
-  before.violations_counted = 2;
-  after.violations.resize(3, before.violations[0]);
-  after.violations_counted = 3;
+  Violate(&before, 2, 20);
+  Violate(&after, 3, 20);
   EXPECT_THAT(Worse(before, after), IsEmpty());
-  after.violations.resize(40, before.violations[0]);
-  after.violations_counted = 40;
-  EXPECT_THAT(Worse(before, after), ElementsAre("violations: order", "violations"));
+  Violate(&after, 37, 4.8);
+  EXPECT_THAT(Worse(before, after), ElementsAre("violations", "violations: order"));
 }
 
-// Four times the hours, four times the near misses: nothing is worse.
-TEST(ComparedSoaks, CountsAreOverTime) {
+// Forty contacts of one pile-up are one event.
+TEST(ComparedSoaks, ViolationsOfOneMomentAreOneEvent) {
+  SoakResult after = SampleSoak(2);
+  Violate(&after, 40, 0.01);
+  EXPECT_THAT(Worse(SampleSoak(1), after), IsEmpty());
+}
+
+TEST(ComparedSoaks, ViolationsThatAreNotListedAreNotTested) {
+  SoakResult after = SampleSoak(2);
+  Violate(&after, 40, 4);
+  after.violations_counted = 6000;
+  EXPECT_THAT(Changed(Compare(SampleSoak(1), after), Change::kUntested), Contains("violations"));
+}
+
+TEST(ComparedSoaks, NearMissesAreComparedBlockByBlock) {
+  SoakResult after = SampleSoak(2);
+  after.near_misses_counted = 130;
+  after.near_misses_by_block[3] += 100;
+  EXPECT_THAT(Worse(SampleSoak(1), after), IsEmpty());
+  for (std::uint64_t& count : after.near_misses_by_block) count += 5;
+  EXPECT_THAT(Worse(SampleSoak(1), after), ElementsAre("near misses"));
+}
+
+// Blocks of other lengths have other counts, and other tails.
+TEST(ComparedSoaks, OfOtherDurationsHistogramsAndCountsAreNotTested) {
   SoakResult longer = SampleSoak(2);
-  longer.ran_s = 4 * 180;
-  longer.near_misses_counted = 120;
-  EXPECT_THAT(Worse(SampleSoak(1), longer), IsEmpty());
+  longer.planned_s = longer.ran_s = 4 * 180;
+  longer.block_s = BlockSeconds(longer.ran_s);
   longer.near_misses_counted = 300;
-  EXPECT_THAT(Worse(SampleSoak(1), longer), ElementsAre("near misses"));
+  const SoakComparison comparison = Compare(SampleSoak(1), longer);
+  EXPECT_FALSE(comparison.AnyWorse());
+  EXPECT_THAT(Changed(comparison, Change::kUntested), Contains("near misses"));
+  EXPECT_THAT(ToText(comparison, false), HasSubstr("untested: soaks of different durations"));
+}
+
+// Of one that ended early only the blocks before its end say anything.
+TEST(ComparedSoaks, BlocksThatOneDidNotReachAreLeftOut) {
+  SoakResult before = SampleSoak(1);
+  before.ran_s = 90;
+  before.near_misses_by_block.resize(10);
+  SoakResult after = SampleSoak(2);
+  for (std::size_t block = 10; block < 20; ++block) after.near_misses_by_block[block] += 50;
+  after.near_misses_counted = 530;
+  EXPECT_THAT(Worse(before, after), Not(Contains("near misses")));
 }
 
 TEST(ComparedSoaks, AVerdictThatFellIsWorseWithoutATest) {
@@ -160,7 +271,7 @@ TEST(ComparisonShown, NoLineIsLongerThanATerminal) {
   const std::string text = ToText(comparison, true);
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
-  EXPECT_THAT(text, AllOf(HasSubstr("worse  verdict"), HasSubstr("0.0020")));
+  EXPECT_THAT(text, AllOf(HasSubstr("worse    verdict"), HasSubstr("0.0020")));
   EXPECT_THAT(ToText(comparison, false),
               AllOf(Not(HasSubstr("\nsame ")), HasSubstr("(--all shows them)")));
   EXPECT_THAT(ToJson(comparison), AllOf(HasSubstr("{\"worse\":true,\"figures\":[{"),

@@ -56,6 +56,29 @@ TEST(FleetTiming, AddsUpEveryValueOfEveryVehicleOnce) {
   EXPECT_EQ(timing.Missed(), 0U);
 }
 
+TEST(FleetTiming, KeepsTheQuantilesOfEachBlockOfTime) {
+  FleetTiming timing(milliseconds(200), 10);
+  Life one;
+  one.Add(DriveFigure::kTurn, 300);
+  timing.Fold(one.Status(), 9);
+  timing.Fold(one.Add(DriveFigure::kTurn, 500).Spend(0.2, 0.22).Status(), 35);
+  timing.Fold(one.Add(DriveFigure::kTurn, 500).Status(), 36);
+  const std::vector<BlockQuantiles> blocks = Named(timing, "turn").blocks;
+  ASSERT_EQ(blocks.size(), 4U);
+  EXPECT_EQ(blocks[0], (BlockQuantiles{1, 300'000, 300'000}));
+  EXPECT_EQ(blocks[1], BlockQuantiles{});
+  EXPECT_EQ(blocks[3].count, 2U);
+  EXPECT_EQ(timing.BudgetSpentByBlock(), (std::vector<std::uint64_t>{0, 0, 0, 1}));
+}
+
+TEST(FleetTiming, WithoutALengthKeepsNoBlocks) {
+  FleetTiming timing(milliseconds(200));
+  Life one;
+  timing.Fold(one.Add(DriveFigure::kTurn, 300).Spend(0.2, 0.22).Status(), 9);
+  EXPECT_TRUE(Named(timing, "turn").blocks.empty());
+  EXPECT_TRUE(timing.BudgetSpentByBlock().empty());
+}
+
 TEST(FleetTiming, CountsWhatNoReportToldOf) {
   FleetTiming timing(milliseconds(200));
   Life one;

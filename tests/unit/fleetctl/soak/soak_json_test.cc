@@ -27,6 +27,7 @@ TEST(SoakReportJson, ComesBackAsItWas) {
   result.skipped_faults = {"clock_step: faketime is not installed"};
   result.violations = {{12.5, VehicleId{3}, VehicleId{4}, "contact", "touched", "stop#1"}};
   result.violations_counted = 7;
+  result.budget_spent_by_block = {0, 3};
   Random random(1);
   result.slopes.push_back(SampleSlope("leaking", &random, 3e3));
   MarkLeaks(&result.slopes, 0);
@@ -37,6 +38,10 @@ TEST(SoakReportJson, ComesBackAsItWas) {
   EXPECT_EQ(read.result.verdict, SoakVerdict::kFailed);
   EXPECT_EQ(read.result.faults[3].noticed_after_s.has_value(), true);
   EXPECT_EQ(read.result.histograms[1].histogram, result.histograms[1].histogram);
+  EXPECT_EQ(read.result.histograms[1].blocks, result.histograms[1].blocks);
+  EXPECT_EQ(read.result.near_misses_by_block, result.near_misses_by_block);
+  EXPECT_EQ(read.result.budget_spent_by_block, (std::vector<std::uint64_t>{0, 3}));
+  EXPECT_EQ(read.result.block_s, 9);
   EXPECT_EQ(read.result.violations[0].vehicle, VehicleId{3});
   EXPECT_EQ(read.result.narrowest_margin->vehicle, VehicleId{3});
   EXPECT_EQ(read.result.accounting[0].Difference(), 0);
@@ -70,6 +75,14 @@ TEST(SoakReportJson, WhatDoesNotFitIsSaidAllAtOnce) {
   EXPECT_THAT(SoakFromJson(json).complaint,
               AllOf(HasSubstr("format is 2, must be 1"), HasSubstr("histograms[0].unit"),
                     HasSubstr("slopes[0].kind"), HasSubstr("accounting[0].sent")));
+}
+
+TEST(SoakReportJson, BlocksThatDoNotFitAreRefused) {
+  SoakResult result = SampleSoak(1);
+  result.near_misses_by_block.resize(21);
+  std::string json = Replaced(ToJson(result), "\"block_p99\":[", "\"block_p99\":[1,");
+  EXPECT_THAT(SoakFromJson(json).complaint,
+              AllOf(HasSubstr("histograms[0].block_p99"), HasSubstr("near_misses_by_block")));
 }
 
 TEST(SoakReportJson, OtherFilesAreNoReports) {

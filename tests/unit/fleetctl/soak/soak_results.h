@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "services/fleetctl/soak/resource_series.h"
+#include "services/fleetctl/soak/soak_blocks.h"
 #include "services/fleetctl/soak/soak_result.h"
 #include "services/statistics/slope.h"
 #include "services/types/math/random.h"
@@ -14,12 +16,23 @@ namespace giveway::fleetctl {
 
 inline constexpr std::uint32_t kSampleVehicles = 8;
 
+// The values of one block more.
+inline void AddBlock(SoakHistogram* measured, const std::vector<double>& values_ms) {
+  Histogram block;
+  for (const double value_ms : values_ms) block.Add(static_cast<std::int64_t>(value_ms * 1e6));
+  measured->blocks.push_back({block.Count(), block.Quantile(0.5), block.Quantile(0.99)});
+  measured->histogram.Merge(block);
+}
+
 inline SoakHistogram SampleHistogram(const std::string& name, Random* random, double median_ms,
                                      double sigma_ms) {
   SoakHistogram measured{.name = name, .budgets = {{0.99, 200'000'000}, {0.5, 100'000'000}}};
-  for (int i = 0; i < 3000; ++i) {
-    const double value_ms = std::abs(median_ms + random->Gaussian(sigma_ms));
-    measured.histogram.Add(static_cast<std::int64_t>(value_ms * 1e6));
+  for (std::size_t block = 0; block < kSoakBlocks; ++block) {
+    std::vector<double> values_ms(150);
+    for (double& value_ms : values_ms) {
+      value_ms = std::abs(median_ms + random->Gaussian(sigma_ms));
+    }
+    AddBlock(&measured, values_ms);
   }
   return measured;
 }
@@ -77,6 +90,10 @@ inline SoakResult SampleSoak(std::uint64_t seed) {
                                   .distance_m = random.Uniform(0.05, 0.3)});
   }
   result.near_misses_counted = 30;
+  result.block_s = BlockSeconds(result.planned_s);
+  BlockCounts near_by_block(result.block_s);
+  for (const NearMiss& miss : result.near_misses) near_by_block.Note(miss.time_s, 1);
+  result.near_misses_by_block = near_by_block.Counts();
   for (std::uint32_t vehicle = 1; vehicle <= kSampleVehicles; ++vehicle) {
     for (int i = 0; i < 12; ++i) {
       const char* mode = i % 3 == 0 ? "drive" : i % 3 == 1 ? "give_way" : "steer_away";

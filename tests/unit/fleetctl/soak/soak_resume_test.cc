@@ -64,6 +64,9 @@ TEST(SoakResume, TwoLegsAreOneSoak) {
   EXPECT_EQ(joined.near_misses_counted, 60U);
   EXPECT_EQ(joined.near_misses.back().time_s, rest.near_misses.back().time_s + 100);
   EXPECT_EQ(joined.budget_spent, 3U);
+  EXPECT_EQ(joined.block_s, 0);  // those of two legs are of different lengths
+  EXPECT_TRUE(joined.near_misses_by_block.empty());
+  EXPECT_TRUE(joined.histograms[0].blocks.empty());
   EXPECT_EQ(joined.narrowest_margin->time_s, 107);
   EXPECT_EQ(joined.verdict, SoakVerdict::kPassed);
   EXPECT_THAT(joined.reasons, ElementsAre("resumed at 100 s"));
