@@ -16,6 +16,7 @@ soak() {
     histograms: [{name: "beacon_age", unit: "ns", min: $age, max: ($age + 19 * 1048576), clamped: 0,
       lowest: [range(20) | $age + . * 1048576], count: [range(20) | 100],
       budgets: [{quantile: 0.99, most: 500000000}], block_values: [range(20) | 100],
+      block_mean: [range(20) | $age + (9 + . % 2) * 1048576],
       block_p50: [range(20) | $age + (9 + . % 2) * 1048576],
       block_p99: [range(20) | $age + 19 * 1048576]}],
     block_s: 15, near_misses_by_block: [5],
@@ -62,7 +63,7 @@ if grep -q '<svg' plain.html; then fail "without gnuplot: pictures"; fi
 
 report 0 "equal" last-release nightly
 report 1 "slower" last-release slower --json
-jq -e '.worse and (.figures[0] | .what == "beacon_age, median" and .change == "worse"
+jq -e '.worse and (.figures[0] | .what == "beacon_age, mean" and .change == "worse"
   and .p < 0.01)' out >/dev/null || fail "slower: $(cat out)"
 report 0 "in reverse" slower last-release
 jq -c 'del(.block_s)' slower/report.json >older.json

@@ -106,14 +106,14 @@ struct BlockSeries {
 };
 
 BlockSeries SeriesOf(const SoakHistogram& before, const SoakHistogram& after, std::size_t blocks,
-                     std::int64_t BlockQuantiles::*quantile) {
+                     std::int64_t BlockSummary::*part) {
   BlockSeries series;
   for (std::size_t i = 0; i < std::min({blocks, before.blocks.size(), after.blocks.size()}); ++i) {
-    const BlockQuantiles& was = before.blocks[i];
-    const BlockQuantiles& is = after.blocks[i];
+    const BlockSummary& was = before.blocks[i];
+    const BlockSummary& is = after.blocks[i];
     if (was.count == 0 || is.count == 0) continue;
-    series.before.push_back(static_cast<double>(was.*quantile));
-    series.after.push_back(static_cast<double>(is.*quantile));
+    series.before.push_back(static_cast<double>(was.*part));
+    series.after.push_back(static_cast<double>(is.*part));
   }
   return series;
 }
@@ -129,14 +129,13 @@ void AddSeries(TestedFigure tested, const BlockSeries& series, const std::string
   figures->Add(std::move(tested));
 }
 
-TestedFigure QuantileOf(const SoakHistogram& before, const SoakHistogram& after, double p,
-                        std::string_view part) {
-  const std::int64_t was = before.histogram.Quantile(p);
-  const std::int64_t is = after.histogram.Quantile(p);
+// Of the whole run, in the unit of both.
+TestedFigure FigureOf(const SoakHistogram& measured, std::string_view part, std::int64_t was,
+                      std::int64_t is) {
   const auto number = [](std::int64_t value) { return static_cast<double>(value); };
-  return {.figure = {.what = fmt::format("{}, {}", before.name, part),
-                     .before = FormatValue(before.unit, was),
-                     .after = FormatValue(after.unit, is)},
+  return {.figure = {.what = fmt::format("{}, {}", measured.name, part),
+                     .before = FormatValue(measured.unit, was),
+                     .after = FormatValue(measured.unit, is)},
           .may_be_worse = GrewEnough(number(was), number(is)),
           .may_be_better = GrewEnough(number(is), number(was))};
 }
@@ -156,10 +155,16 @@ void CompareHistograms(const SoakResult& before, const SoakResult& after, Figure
     const std::string why_not = !blocks.why_none.empty() ? blocks.why_none
                                 : by_block               ? ""
                                                          : kOneEvent;
-    AddSeries(QuantileOf(was, *is, 0.5, "median"),
-              SeriesOf(was, *is, blocks.count, &BlockQuantiles::p50), why_not, figures);
-    AddSeries(QuantileOf(was, *is, 0.99, "99 %"),
-              SeriesOf(was, *is, blocks.count, &BlockQuantiles::p99), why_not, figures);
+    const auto add = [&](std::string_view part, std::int64_t all_before, std::int64_t all_after,
+                         std::int64_t BlockSummary::*of_block) {
+      AddSeries(FigureOf(was, part, all_before, all_after),
+                SeriesOf(was, *is, blocks.count, of_block), why_not, figures);
+    };
+    const Histogram& a = was.histogram;
+    const Histogram& b = is->histogram;
+    add("mean", std::llround(a.Mean()), std::llround(b.Mean()), &BlockSummary::mean);
+    add("median", a.Quantile(0.5), b.Quantile(0.5), &BlockSummary::p50);
+    add("99 %", a.Quantile(0.99), b.Quantile(0.99), &BlockSummary::p99);
   }
 }
 

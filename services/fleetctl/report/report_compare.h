@@ -5,9 +5,8 @@
 // never a value. Two soaks of one duration are compared block by block, so that warm-up meets
 // warm-up:
 //
-//   figures    histograms: median and 99 % of each block (signed ranks, SeriesGreater). Worse only
-//   if
-//              that quantile of the whole run grew by 5 %.
+//   figures    histograms: mean, median and 99 % of each block (signed ranks, SeriesGreater).
+//              Worse only if that of the whole run grew by 5 %.
 //   counts     violations by invariant, near misses, reactions that left less than a fifth of their
 //              free distance: the counts of each block, likewise.
 //   faults     by kind: time until noticed, until recovered (Mann-Whitney), from 5 % on; how many
@@ -20,10 +19,10 @@
 //   untested   shown where they differ, with the reason: values of one event (healing), other
 //              durations, reports without blocks.
 //
-// All tests together report two soaks of equal programs as worse with a probability of at most 0.5
-// % (Holm at 1 %, both directions), as far as blocks that follow each other resemble each other no
-// more than a process of first order, and nothing that lasts for all of a run, such as a busier
-// machine, differs. A single soak reports a false leak with a probability of 1 %.
+// All tests together call the second of two soaks of equal programs worse once in 200 times at most
+// (Holm at 1 %, both directions), if blocks are independent: measured in the README. Neighbours
+// that resemble each other count for fewer; what differs for all of a run, such as a busier
+// machine, is a difference. A single soak reports a false leak with a probability of 1 %.
 #pragma once
 
 #include <optional>

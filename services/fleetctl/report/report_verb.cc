@@ -20,14 +20,18 @@ namespace {
 constexpr const char* kReportFooter = R"(
 A report is what fleetctl soak --report FOLDER wrote: the folder, or its report.json. One is printed as a
 summary. Of two, what got worse from the first to the second, with the chance that equal soaks
-differ so much; all tests together call equal soaks worse at most once in 200. A leak that
-only the second names is worse without a test: a soak names one that is none once in 100 times.
-  figures  histograms: Mann-Whitney for the median, Fisher for the share above the 99 % of both; no
-           more than one value a vehicle and second counts as evidence
+differ so much. Evidence is not the value, for one burst of loss delays hundreds, but the block of
+time: a twentieth of the run. If blocks are independent, all tests together call equal programs
+worse at most once in 200. A verdict that fell, beacons not accounted for, and a leak that only the
+second names are worse without a test: a soak names a leak that is none once in 100 times.
+  figures  histograms: mean, median, 99 % of each block, block against block (signed ranks)
+  counts   violations, near misses, reactions that left less than a fifth: of each block, likewise
+  faults   by kind, one value a block: how long until noticed and recovered (Mann-Whitney), how
+           many late or without effect (Fisher)
   slopes   Theil-Sen, by their 95 % intervals; from 64 KiB, 1 descriptor, 1 thread, 0.05 processors
            an hour on
-  faults   by kind: how long until noticed and recovered (Mann-Whitney), how many late (Fisher)
-  counts   violations, near misses, unplanned restarts by vehicle-hour (exact binomial)
+  untested what stems from one event, such as healing; figures and counts of soaks of different
+           durations, of resumed ones, and of reports without blocks: shown, with the reason
 Times must differ by 5 %. Both soaks must have one scenario, one fault file, as many vehicles.
 
 Of an MCAP recording, as fleetctl record and fleetctl run --record-topics write it, the report is a page

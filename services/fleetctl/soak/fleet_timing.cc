@@ -1,6 +1,7 @@
 #include "services/fleetctl/soak/fleet_timing.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace giveway::fleetctl {
@@ -20,8 +21,9 @@ HistogramUnit UnitOf(DriveFigure figure) {
   }
 }
 
-BlockQuantiles QuantilesOf(const Histogram& histogram) {
-  return {histogram.Count(), histogram.Quantile(0.5), histogram.Quantile(0.99)};
+BlockSummary SummaryOf(const Histogram& histogram) {
+  return {histogram.Count(), std::llround(histogram.Mean()), histogram.Quantile(0.5),
+          histogram.Quantile(0.99)};
 }
 
 }  // namespace
@@ -47,16 +49,16 @@ void FleetTiming::Fold(const VehicleStatus& status, double time_s) {
 void FleetTiming::EndBlocksBefore(double time_s) {
   for (const std::size_t now = BlockOf(time_s, block_s_); block_ < now; ++block_) {
     for (std::size_t i = 0; i < kDriveFigures; ++i) {
-      ended_[i].push_back(QuantilesOf(fresh_[i]));
+      ended_[i].push_back(SummaryOf(fresh_[i]));
       fresh_[i] = {};
     }
   }
 }
 
-std::vector<BlockQuantiles> FleetTiming::BlocksOf(std::size_t figure) const {
+std::vector<BlockSummary> FleetTiming::BlocksOf(std::size_t figure) const {
   if (!(block_s_ > 0)) return {};
-  std::vector<BlockQuantiles> blocks = ended_[figure];
-  blocks.push_back(QuantilesOf(fresh_[figure]));
+  std::vector<BlockSummary> blocks = ended_[figure];
+  blocks.push_back(SummaryOf(fresh_[figure]));
   return blocks;
 }
 

@@ -47,7 +47,7 @@ class FleetTiming {
  private:
   void Take(VehicleId vehicle, DriveFigure figure, std::uint32_t value, double time_s);
   void EndBlocksBefore(double time_s);
-  std::vector<BlockQuantiles> BlocksOf(std::size_t figure) const;
+  std::vector<BlockSummary> BlocksOf(std::size_t figure) const;
   void TakeNewest(const VehicleStatus& status, std::size_t figure, double time_s);
 
   Nanoseconds most_age_;
@@ -55,7 +55,7 @@ class FleetTiming {
   BlockCounts spent_by_block_;
   std::size_t block_ = 0;                       // the current one, and
   std::array<Histogram, kDriveFigures> fresh_;  // its values
-  std::array<std::vector<BlockQuantiles>, kDriveFigures> ended_;
+  std::array<std::vector<BlockSummary>, kDriveFigures> ended_;
   std::array<Histogram, kDriveFigures> histograms_;
   std::map<VehicleId, DriveFigures> before_;
   std::map<VehicleId, StaleDecisions> stale_;

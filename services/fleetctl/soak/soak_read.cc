@@ -82,21 +82,22 @@ std::vector<std::uint64_t> ByBlockFrom(const Numbers& numbers, const std::string
   return counts;
 }
 
-std::vector<BlockQuantiles> BlocksFrom(const schema::SoakHistogram& message,
-                                       const std::string& field, Complaints* complaints) {
+std::vector<BlockSummary> BlocksFrom(const schema::SoakHistogram& message, const std::string& field,
+                                     Complaints* complaints) {
   const auto counts = ByBlockFrom(message.block_values(), field + ".block_values", complaints);
+  const auto mean = ByBlockFrom(message.block_mean(), field + ".block_mean", complaints);
   const auto p50 = ByBlockFrom(message.block_p50(), field + ".block_p50", complaints);
   const auto p99 = ByBlockFrom(message.block_p99(), field + ".block_p99", complaints);
-  if (p50.size() != counts.size() || p99.size() != counts.size()) {
-    complaints->Add(field + ".block_p50 or block_p99",
-                    fmt::format("{} and {} numbers", p50.size(), p99.size()),
+  if (mean.size() != counts.size() || p50.size() != counts.size() || p99.size() != counts.size()) {
+    complaints->Add(field + ".block_mean, block_p50, block_p99",
+                    fmt::format("{}, {}, {} numbers", mean.size(), p50.size(), p99.size()),
                     fmt::format("as many as block_values: {}", counts.size()));
     return {};
   }
-  std::vector<BlockQuantiles> blocks;
+  std::vector<BlockSummary> blocks;
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    blocks.push_back(
-        {counts[i], static_cast<std::int64_t>(p50[i]), static_cast<std::int64_t>(p99[i])});
+    blocks.push_back({counts[i], static_cast<std::int64_t>(mean[i]),
+                      static_cast<std::int64_t>(p50[i]), static_cast<std::int64_t>(p99[i])});
   }
   return blocks;
 }

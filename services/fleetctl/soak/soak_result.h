@@ -97,12 +97,13 @@ struct HistogramBudget {
 };
 
 // The values of one block of time: soak_blocks.h.
-struct BlockQuantiles {
+struct BlockSummary {
   std::uint64_t count = 0;
-  std::int64_t p50 = 0;  // 0 where nothing was counted
+  std::int64_t mean = 0;  // 0 where nothing was counted
+  std::int64_t p50 = 0;
   std::int64_t p99 = 0;
 
-  friend constexpr bool operator==(const BlockQuantiles&, const BlockQuantiles&) = default;
+  friend constexpr bool operator==(const BlockSummary&, const BlockSummary&) = default;
 };
 
 struct SoakHistogram {
@@ -110,7 +111,7 @@ struct SoakHistogram {
   HistogramUnit unit = HistogramUnit::kNanoseconds;
   Histogram histogram;
   std::vector<HistogramBudget> budgets;
-  std::vector<BlockQuantiles> blocks;  // from the first on; empty: not kept by block
+  std::vector<BlockSummary> blocks;  // from the first on; empty: not kept by block
 };
 // All budgets are kept, or nothing was measured.
 bool WithinBudgets(const SoakHistogram& measured);

@@ -83,8 +83,9 @@ void Write(const SoakHistogram& measured, schema::SoakHistogram* message) {
   message->set_p50(AsDouble(histogram.Quantile(0.5)));
   message->set_p99(AsDouble(histogram.Quantile(0.99)));
   message->set_p999(AsDouble(histogram.Quantile(0.999)));
-  for (const BlockQuantiles& block : measured.blocks) {
+  for (const BlockSummary& block : measured.blocks) {
     message->add_block_values(AsDouble(block.count));
+    message->add_block_mean(AsDouble(block.mean));
     message->add_block_p50(AsDouble(block.p50));
     message->add_block_p99(AsDouble(block.p99));
   }

@@ -93,10 +93,10 @@ TEST(ComparedSoaks, OneEventIsShownAndNotTested) {
   const SoakComparison comparison = Compare(before, after);
   EXPECT_FALSE(comparison.AnyWorse());
   EXPECT_THAT(Changed(comparison, Change::kUntested),
-              ElementsAre("healing, median", "healing, 99 %"));
+              ElementsAre("healing, mean", "healing, median", "healing, 99 %"));
   EXPECT_EQ(comparison.figures[0].after, "150.0 ms");
   EXPECT_FALSE(comparison.figures[0].p);
-  EXPECT_THAT(ToText(comparison, false), HasSubstr("2 untested: all values stem from one event"));
+  EXPECT_THAT(ToText(comparison, false), HasSubstr("3 untested: all values stem from one event"));
   EXPECT_THAT(ToJson(comparison), HasSubstr("\"why_untested\":\"all values"));
 }
 
@@ -124,10 +124,28 @@ TEST(ComparedSoaks, OlderBeaconsAreFound) {
   EXPECT_THAT(Worse(after, SampleSoak(1)), IsEmpty());
 }
 
+// Virtual time knows whole ticks alone: median and 99 % may stay where the mean does not.
+TEST(ComparedSoaks, MoreOldBeaconsBelowTheTailAreFoundByTheirMean) {
+  SoakResult before = SampleSoak(1);
+  SoakResult after = SampleSoak(2);
+  for (SoakResult* result : {&before, &after}) {
+    Random random(result->seed);
+    SoakHistogram age{.name = "beacon_age"};
+    for (std::size_t block = 0; block < kSoakBlocks; ++block) {
+      std::vector<double> values_ms(150, 50.0);
+      const double old = random.Uniform(10, 20) + (result == &after ? 20 : 0);
+      for (int i = 0; i < old; ++i) values_ms[static_cast<std::size_t>(i)] = 150;
+      AddBlock(&age, values_ms);
+    }
+    result->histograms[1] = age;
+  }
+  EXPECT_THAT(Worse(before, after), ElementsAre("beacon_age, mean"));
+}
+
 TEST(ComparedSoaks, ALongerTailIsFound) {
   SoakResult after = SampleSoak(2);
   after.histograms[0].histogram.Add(400'000'000, 90);
-  for (BlockQuantiles& block : after.histograms[0].blocks) block.p99 = 400'000'000;
+  for (BlockSummary& block : after.histograms[0].blocks) block.p99 = 400'000'000;
   EXPECT_THAT(Worse(SampleSoak(1), after), ElementsAre("reaction, 99 %"));
 }
 

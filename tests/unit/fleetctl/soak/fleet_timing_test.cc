@@ -63,10 +63,13 @@ TEST(FleetTiming, KeepsTheQuantilesOfEachBlockOfTime) {
   timing.Fold(one.Status(), 9);
   timing.Fold(one.Add(DriveFigure::kTurn, 500).Spend(0.2, 0.22).Status(), 35);
   timing.Fold(one.Add(DriveFigure::kTurn, 500).Status(), 36);
-  const std::vector<BlockQuantiles> blocks = Named(timing, "turn").blocks;
+  const std::vector<BlockSummary> blocks = Named(timing, "turn").blocks;
   ASSERT_EQ(blocks.size(), 4U);
-  EXPECT_EQ(blocks[0], (BlockQuantiles{1, 300'000, 300'000}));
-  EXPECT_EQ(blocks[1], BlockQuantiles{});
+  EXPECT_EQ(blocks[0].count, 1U);
+  EXPECT_NEAR(static_cast<double>(blocks[0].mean), 3e5, 0.001 * 3e5);
+  EXPECT_EQ(blocks[0].p50, 300'000);
+  EXPECT_EQ(blocks[0].p99, 300'000);
+  EXPECT_EQ(blocks[1], BlockSummary{});
   EXPECT_EQ(blocks[3].count, 2U);
   EXPECT_EQ(timing.BudgetSpentByBlock(), (std::vector<std::uint64_t>{0, 0, 0, 1}));
 }

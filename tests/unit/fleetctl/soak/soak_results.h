@@ -20,7 +20,8 @@ inline constexpr std::uint32_t kSampleVehicles = 8;
 inline void AddBlock(SoakHistogram* measured, const std::vector<double>& values_ms) {
   Histogram block;
   for (const double value_ms : values_ms) block.Add(static_cast<std::int64_t>(value_ms * 1e6));
-  measured->blocks.push_back({block.Count(), block.Quantile(0.5), block.Quantile(0.99)});
+  measured->blocks.push_back(
+      {block.Count(), std::llround(block.Mean()), block.Quantile(0.5), block.Quantile(0.99)});
   measured->histogram.Merge(block);
 }
 

@@ -3,8 +3,12 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <numeric>
+
 #include "services/config/scenario_file.h"
 #include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/soak/soak_blocks.h"
 #include "services/fleetctl/soak/soak_json.h"
 #include "services/fleetctl/soak/soak_verdict.h"
 
@@ -72,6 +76,24 @@ TEST_F(SoakVirtualTest, CarriesOutItsListAndJudgesIt) {
   for (const SoakHistogram& histogram : result.histograms) names.push_back(histogram.name);
   EXPECT_THAT(names, Contains("healing"));
   EXPECT_THAT(names, Contains("beacon_age"));
+}
+
+TEST_F(SoakVirtualTest, ItsBlocksOfTimeHoldAllThereWas) {
+  schedule_ = {Planned(faults::Kind::kSonarOff, 25, 20, 3)};
+  const SoakResult result = Soak();
+  EXPECT_EQ(result.block_s, 4.5);
+  const auto& near = result.near_misses_by_block;
+  EXPECT_EQ(std::accumulate(near.begin(), near.end(), std::uint64_t{0}),
+            result.near_misses_counted);
+  EXPECT_GT(result.near_misses_counted, 0U);
+  const auto& spent = result.budget_spent_by_block;
+  EXPECT_EQ(std::accumulate(spent.begin(), spent.end(), std::uint64_t{0}), result.budget_spent);
+  const auto age = std::ranges::find(result.histograms, "beacon_age", &SoakHistogram::name);
+  ASSERT_NE(age, result.histograms.end());
+  ASSERT_EQ(age->blocks.size(), kSoakBlocks);
+  std::uint64_t values = 0;
+  for (const BlockSummary& block : age->blocks) values += block.count;
+  EXPECT_EQ(values, age->histogram.Count());
 }
 
 TEST_F(SoakVirtualTest, IsTheSameEachTime) {
