@@ -49,15 +49,15 @@ double NormalGreater(double u, double n, double m, double tied) {
 // Of all choices of signs for the ranks the share whose positive ranks come to at least `sum`.
 // Ranks are doubled to be whole.
 double ExactSigned(const std::vector<double>& ranks, double sum) {
-  std::vector<double> ways{1};
+  std::vector<double> choices{1};
   for (const double rank : ranks) {
     const auto doubled = static_cast<std::size_t>(std::llround(2 * rank));
-    ways.resize(ways.size() + doubled);
-    for (std::size_t s = ways.size(); s-- > doubled;) ways[s] += ways[s - doubled];
+    choices.resize(choices.size() + doubled);
+    for (std::size_t s = choices.size(); s-- > doubled;) choices[s] += choices[s - doubled];
   }
   const auto least = static_cast<std::ptrdiff_t>(std::llround(2 * sum));
-  const double all = std::accumulate(ways.begin(), ways.end(), 0.0);
-  return std::accumulate(ways.begin() + least, ways.end(), 0.0) / all;
+  const double all = std::accumulate(choices.begin(), choices.end(), 0.0);
+  return std::accumulate(choices.begin() + least, choices.end(), 0.0) / all;
 }
 
 // How each difference ranks by its size, with its sign; 0 for none.

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <tuple>
 
-#include "services/fleetctl/soak/soak_blocks.h"
 #include "services/fleetctl/soak/soak_format.h"
+#include "services/fleetctl/soak/soak_phases.h"
 #include "services/statistics/distributions.h"
 #include "services/statistics/two_sample.h"
 
@@ -96,7 +96,8 @@ CommonBlocks CommonBlocksOf(const SoakResult& before, const SoakResult& after) {
     return {0, kOtherLengths};
   }
   const double full = std::min(before.ran_s, after.ran_s) / before.block_s + kSameBlocks;
-  return {static_cast<std::size_t>(std::clamp(full, 0.0, static_cast<double>(kSoakBlocks))), {}};
+  if (!(full > 0)) return {};
+  return {static_cast<std::size_t>(std::min(full, static_cast<double>(kSoakBlocks))), {}};
 }
 
 // Of each block in which both have values.

@@ -1,7 +1,7 @@
 // What became worse from one soak to another, and whether chance explains it. Pure.
 //
 // A soak's values come in clusters: many vehicles meet one burst of loss, and all heal from one
-// fault. What counts as independent is a block of time (soak_blocks.h), a twentieth of the run,
+// fault. What counts as independent is a block of time (soak_phases.h), a twentieth of the run,
 // never a value. Two soaks of one duration are compared block by block, so that warm-up meets
 // warm-up:
 //

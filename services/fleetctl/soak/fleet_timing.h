@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "services/fleetctl/soak/soak_blocks.h"
+#include "services/fleetctl/soak/soak_phases.h"
 #include "services/fleetctl/soak/soak_result.h"
 #include "services/types/figures/drive_figures.h"
 #include "services/types/fleet_facts.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "services/fleetctl/soak/soak_blocks.h"
+#include "services/fleetctl/soak/soak_phases.h"
 #include "services/fleetctl/soak/soak_schema.h"
 
 namespace giveway::fleetctl {

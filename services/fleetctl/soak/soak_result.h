@@ -96,7 +96,7 @@ struct HistogramBudget {
   std::int64_t most = 0;
 };
 
-// The values of one block of time: soak_blocks.h.
+// The values of one block of time: soak_phases.h.
 struct BlockSummary {
   std::uint64_t count = 0;
   std::int64_t mean = 0;  // 0 where nothing was counted
@@ -214,7 +214,7 @@ struct SoakResult {
   std::uint64_t ticks_unseen = 0;
   std::vector<NearMiss> near_misses;
   std::uint64_t near_misses_counted = 0;
-  // Lengths of time for comparisons: soak_blocks.h. 0: nothing is kept by block.
+  // Lengths of time for comparisons: soak_phases.h. 0: nothing is kept by block.
   double block_s = 0;
   std::vector<std::uint64_t> near_misses_by_block;   // up to the last with any
   std::vector<std::uint64_t> budget_spent_by_block;  // likewise

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "services/fleetctl/report/report_show.h"
-#include "services/fleetctl/soak/soak_blocks.h"
+#include "services/fleetctl/soak/soak_phases.h"
 #include "tests/unit/fleetctl/soak/soak_results.h"
 
 namespace giveway::fleetctl {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "services/fleetctl/soak/resource_series.h"
-#include "services/fleetctl/soak/soak_blocks.h"
+#include "services/fleetctl/soak/soak_phases.h"
 #include "services/fleetctl/soak/soak_result.h"
 #include "services/statistics/slope.h"
 #include "services/types/math/random.h"

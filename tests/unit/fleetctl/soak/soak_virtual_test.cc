@@ -8,8 +8,8 @@
 
 #include "services/config/scenario_file.h"
 #include "services/fleetctl/process/interrupts.h"
-#include "services/fleetctl/soak/soak_blocks.h"
 #include "services/fleetctl/soak/soak_json.h"
+#include "services/fleetctl/soak/soak_phases.h"
 #include "services/fleetctl/soak/soak_verdict.h"
 
 namespace giveway::fleetctl {
