@@ -84,7 +84,7 @@ class Figures {
 bool GrewEnough(double before, double after) { return after > before * (1 + kLeastChange); }
 
 // The blocks of time of two soaks, place by place: what one did in a block is independent of what
-// it did in others, and two of equal programs are as likely the one way round as the other.
+// it did in others, and two of equal programs are as likely in the one order as in the other.
 struct CommonBlocks {
   std::size_t count = 0;  // that both have in full
   std::string why_none;   // empty: they can be compared
