@@ -51,7 +51,7 @@ TEST(Series, OfFewPlacesAreCountedOut) {
   EXPECT_EQ(SeriesGreater(Values{1, 2}, Values{1, 2}), 1);
 }
 
-// What differs from place to place in the same way in both is no difference.
+// What differs from place to place alike in both is no difference.
 TEST(Series, AreComparedPlaceByPlace) {
   Random random(5);
   Values before, after;
