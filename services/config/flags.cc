@@ -56,9 +56,8 @@ void AddFlags(Service service, CommandLine* line) {
     line->AddSwitch("--stay", "when the run has ended, halt and ask the next world for a place");
     line->AddSwitch("--partition-free",
                     "publishes beacons without a partition, too, for foreign tools");
-    line->AddSwitch(
-        "--hang-on-signal",
-        "a drill: SIGUSR2 makes the control loop hang, a second SIGUSR2 makes it resume");
+    line->AddSwitch("--hang-on-signal",
+                    "a drill: SIGUSR1 makes the control loop hang, SIGUSR2 makes it resume");
     line->AddSwitch("--no-watchdog", "a drill: a control loop that hangs does not end the process");
   } else {
     line->Add("--threads", "1..256", "threads that share the work of a tick (default 1)");

@@ -43,8 +43,16 @@ double LastsUntil_s(const Fault& fault) {
   return fault.kind == Kind::kKill ? std::numeric_limits<double>::infinity() : fault.EndsAt_s();
 }
 
+// There is no process to kill while all are away for a while.
+bool IsAwayAt(const Fault& kill, const Fault& other) {
+  const bool takes_away = other.kind == Kind::kRestart || other.kind == Kind::kQosMismatch;
+  return takes_away && other.target.what == Target::What::kAll && kill.at_s >= other.at_s;
+}
+
 // A kill concerns its one process only: what meets all continues meeting the others.
 bool OnOneTarget(const Fault& a, const Fault& b) {
+  if (a.kind == Kind::kKill && IsAwayAt(a, b)) return true;
+  if (b.kind == Kind::kKill && IsAwayAt(b, a)) return true;
   if (a.kind == Kind::kKill || b.kind == Kind::kKill) return a.target == b.target;
   return a.target == b.target || a.target.what == Target::What::kAll ||
          b.target.what == Target::What::kAll;

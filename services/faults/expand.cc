@@ -16,6 +16,8 @@
 namespace giveway::faults {
 namespace {
 
+constexpr std::size_t kMostRefused = 100;  // pairs that exclude each other: a list has many
+
 // Thousandths: what a list shows, and what it is read back as.
 double ToMilliseconds(double time_s) {
   return static_cast<double>(static_cast<std::int64_t>(time_s * 1000 + 0.5)) / 1000;
@@ -98,6 +100,12 @@ class Expander {
   }
   // What the ranges of one rule cannot show.
   template <typename Rule>
+  void RefuseFromItself(const Rule& rule, VehicleId target) {
+    if (rule.parameters.from != target) return;
+    Refuse(rule, "from", "vehicle " + std::to_string(Number(target)) + " does not hear itself",
+           "name another vehicle than the target");
+  }
+  template <typename Rule>
   void CheckParameters(const Rule& rule, double longest_s) {
     if (rule.parameters.from) RefuseUnlessThere(rule, "from", *rule.parameters.from);
     if (rule.kind != Kind::kFlapping) return;
@@ -112,6 +120,7 @@ class Expander {
   void Plan(const AtRule& rule) {
     if (rule.target.what == Target::What::kVehicle) {
       RefuseUnlessThere(rule, "vehicle", rule.target.vehicle);
+      RefuseFromItself(rule, rule.target.vehicle);
     }
     CheckParameters(rule, rule.for_s);
     const Fault fault{rule.name,
@@ -131,6 +140,13 @@ class Expander {
     drawn_.push_back({fault, rule.line, false, 0});
   }
 
+  // All vehicles but one.
+  std::vector<VehicleId> Without(VehicleId left_out) const {
+    std::vector<VehicleId> others = vehicles_;
+    std::erase(others, left_out);
+    return others;
+  }
+
   std::vector<Target> TargetsAt(const RandomRule& rule, Random* dice) const {
     const auto one_of = [&](const std::vector<VehicleId>& ids) -> std::vector<Target> {
       const double place = dice->Uniform(0, 1) * static_cast<double>(ids.size());
@@ -140,11 +156,13 @@ class Expander {
     std::vector<Target> every;
     switch (rule.targets.what) {
       case Targets::What::kAnyVehicle:
-        return one_of(vehicles_);
+        return one_of(rule.parameters.from ? Without(*rule.parameters.from) : vehicles_);
       case Targets::What::kNamed:
         return one_of(rule.targets.named);
       case Targets::What::kEveryVehicle:
-        for (const VehicleId id : vehicles_) every.push_back({Target::What::kVehicle, id});
+        for (const VehicleId id : vehicles_) {
+          if (id != rule.parameters.from) every.push_back({Target::What::kVehicle, id});
+        }
         return every;
       case Targets::What::kWorld:
         return {{Target::What::kWorld}};
@@ -158,7 +176,10 @@ class Expander {
 
   void CheckTargets(const RandomRule& rule) {
     CheckParameters(rule, rule.for_high_s);
-    for (const VehicleId id : rule.targets.named) RefuseUnlessThere(rule, "vehicle", id);
+    for (const VehicleId id : rule.targets.named) {
+      RefuseUnlessThere(rule, "vehicle", id);
+      RefuseFromItself(rule, id);
+    }
     const bool needs_fleet = rule.targets.what == Targets::What::kAnyVehicle ||
                              rule.targets.what == Targets::What::kEveryVehicle;
     if (needs_fleet && vehicles_.empty()) Refuse(rule, "target", Fleet(), "name more vehicles");
@@ -197,6 +218,8 @@ class Expander {
   }
 
   void RefuseBoth(const Drawn& a, const Drawn& b) {
+    ++excluding_;
+    if (expansion_.refused.size() >= kMostRefused) return;
     const auto described = [](const Drawn& drawn) {
       return drawn.fault.rule + " (" + Line(drawn.fault) + ")" +
              (drawn.line > 0 ? " of line " + std::to_string(drawn.line) : "");
@@ -215,6 +238,10 @@ class Expander {
       if (!drawn_[i].random && !drawn_[j].random) return RefuseBoth(drawn_[i], drawn_[j]);
       out[Stays(drawn_[i], drawn_[j]) ? j : i] = true;
     });
+    if (excluding_ > kMostRefused) {
+      expansion_.refused.back().message +=
+          "; and " + std::to_string(excluding_ - kMostRefused) + " more pairs do";
+    }
     for (std::size_t i = 0; i < faults.size(); ++i) {
       if (out[i]) {
         ++left_out_[drawn_[i].rule].excluded;
@@ -229,6 +256,7 @@ class Expander {
   std::vector<VehicleId> vehicles_;  // sorted
   std::vector<Drawn> drawn_;
   std::vector<LeftOut> left_out_;  // of each random rule
+  std::size_t excluding_ = 0;      // pairs of planned faults
   Expansion expansion_;
 };
 

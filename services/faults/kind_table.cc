@@ -13,31 +13,32 @@ namespace {
 
 using N = Quantity;
 
-constexpr std::array kSlowNumbers = {QuantityRow{N::kShare, 0.2, 0.01, 1}};
+// From the least that has an effect on.
+constexpr std::array kSlowNumbers = {QuantityRow{N::kShare, 0.2, 0.01, 0.95}};
 constexpr std::array kMemoryNumbers = {QuantityRow{N::kBytes, 8e6, 1, 1e12}};
 constexpr std::array kDescriptorNumbers = {QuantityRow{N::kCount, 4, 1, 100000}};
 constexpr std::array kClockQuantities = {QuantityRow{N::kOffset, 3600, -86400, 86400}};
 constexpr std::array kChurnNumbers = {QuantityRow{N::kCount, 20, 1, 100000}};
 constexpr std::array kLeftOverNumbers = {QuantityRow{N::kCount, 50, 1, 100000}};
-constexpr std::array kLossNumbers = {QuantityRow{N::kProbability, 0.2, 0, 1}};
+constexpr std::array kLossNumbers = {QuantityRow{N::kProbability, 0.2, 0.001, 1}};
 // A length from 10 on lets every probability up to 0.9 be reached: services/config/impair.cc.
-constexpr std::array kBurstNumbers = {QuantityRow{N::kProbability, 0.2, 0, 0.9},
+constexpr std::array kBurstNumbers = {QuantityRow{N::kProbability, 0.2, 0.001, 0.9},
                                       QuantityRow{N::kCount, 10, 10, 10000}};
-constexpr std::array kDelayNumbers = {QuantityRow{N::kDelay, 0.05, 0, 10}};
-constexpr std::array kReorderNumbers = {QuantityRow{N::kProbability, 0.1, 0, 1},
+constexpr std::array kDelayNumbers = {QuantityRow{N::kDelay, 0.05, 0.001, 10}};
+constexpr std::array kReorderNumbers = {QuantityRow{N::kProbability, 0.1, 0.001, 1},
                                         QuantityRow{N::kDelay, 0.075, 0.001, 10}};
-constexpr std::array kDuplicateNumbers = {QuantityRow{N::kProbability, 0.1, 0, 1}};
-constexpr std::array kCorruptNumbers = {QuantityRow{N::kProbability, 0.01, 0, 1}};
+constexpr std::array kDuplicateNumbers = {QuantityRow{N::kProbability, 0.1, 0.001, 1}};
+constexpr std::array kCorruptNumbers = {QuantityRow{N::kProbability, 0.01, 0.001, 1}};
 constexpr std::array kRateNumbers = {QuantityRow{N::kBytes, 20000, 1, 1e9}};
 constexpr std::array kFlappingNumbers = {QuantityRow{N::kPeriod, 2, 0.05, 600}};
 constexpr std::array kWrongNumbers = {QuantityRow{N::kFactor, 0.8, 0, 10}};
 constexpr std::array kSonarSlowNumbers = {QuantityRow{N::kPeriod, 0.5, 0.05, 600}};
-constexpr std::array kSonarDelayedNumbers = {QuantityRow{N::kDelay, 0.1, 0, 10}};
-constexpr std::array kIntermittentNumbers = {QuantityRow{N::kProbability, 0.3, 0, 1}};
+constexpr std::array kSonarDelayedNumbers = {QuantityRow{N::kDelay, 0.1, 0.001, 10}};
+constexpr std::array kIntermittentNumbers = {QuantityRow{N::kProbability, 0.3, 0.001, 1}};
 constexpr std::array kWeakQuantities = {QuantityRow{N::kFactor, 0.7, 0, 10}};
 constexpr std::array kEncoderNumbers = {QuantityRow{N::kFactor, 1.02, 0, 10}};
 // Off by far more than a fix can be by chance, and by no more than wheels could have gone.
-constexpr std::array kFixNumbers = {QuantityRow{N::kProbability, 0.5, 0, 1},
+constexpr std::array kFixNumbers = {QuantityRow{N::kProbability, 0.5, 0.001, 1},
                                     QuantityRow{N::kFactor, 8, 0, 10}};
 constexpr std::array kForgedNumbers = {QuantityRow{N::kRate, 20, 1, 100000}};
 constexpr std::array kFloodNumbers = {QuantityRow{N::kRate, 2000, 1, 100000}};

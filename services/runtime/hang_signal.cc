@@ -14,21 +14,33 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 constexpr Nanoseconds kPoll = std::chrono::milliseconds(20);
 
-void OnSignal(int /*signal*/) { is_up = !is_up; }
+void OnSignal(int signal) { is_up = signal == HangSignal::kHang; }
+
+sigset_t Both() {
+  sigset_t both;
+  sigemptyset(&both);
+  sigaddset(&both, HangSignal::kHang);
+  sigaddset(&both, HangSignal::kResume);
+  return both;
+}
 
 }  // namespace
 
 HangSignal::HangSignal() {
   is_up = false;
   struct sigaction action {};
-  sigemptyset(&action.sa_mask);
+  action.sa_mask =
+      Both();  // of two that wait the lower number, the hang, is handled to its end first
   action.sa_handler = OnSignal;
-  const int failed = sigaction(SIGUSR2, &action, &before_);
-  GIVEWAY_CHECK(failed == 0);
+  GIVEWAY_CHECK(sigaction(kHang, &action, &hang_before_) == 0);
+  GIVEWAY_CHECK(sigaction(kResume, &action, &resume_before_) == 0);
+  const sigset_t both = Both();
+  pthread_sigmask(SIG_UNBLOCK, &both, nullptr);
 }
 
 HangSignal::~HangSignal() {
-  sigaction(SIGUSR2, &before_, nullptr);
+  sigaction(kHang, &hang_before_, nullptr);
+  sigaction(kResume, &resume_before_, nullptr);
   is_up = false;
 }
 

@@ -14,6 +14,8 @@
 #include <sstream>
 #include <system_error>
 
+#include "services/runtime/hang_signal.h"
+
 namespace giveway {
 namespace {
 
@@ -96,6 +98,8 @@ void HoldSignalsBack() {
   sigemptyset(&stops);
   sigaddset(&stops, SIGINT);
   sigaddset(&stops, SIGTERM);
+  sigaddset(&stops, HangSignal::kHang);
+  sigaddset(&stops, HangSignal::kResume);
   sigprocmask(SIG_BLOCK, &stops, nullptr);
 }
 

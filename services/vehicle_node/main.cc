@@ -71,8 +71,6 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario, link::LinkOpti
     settled();
     if (resumed.order != 0) admin.AnswerResumed(resumed.order, flags.rolled_back);
   };
-  std::optional<HangSignal> hang;
-  if (flags.hang_on_signal) hang.emplace();
   VehicleLoop loop({.link = &link,
                     .clock = &clock,
                     .health = &health,
@@ -90,6 +88,8 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario, link::LinkOpti
 int Run(const ServiceFlags& flags, const StopSignal& stop) {
   const std::string name = flags.id == 0 ? "vehicle" : "vehicle " + std::to_string(flags.id);
   InitLog(name, flags.log_format, flags.log_level);
+  std::optional<HangSignal> hang;
+  if (flags.hang_on_signal) hang.emplace();
   SetLogVehicle(VehicleId{flags.id});
   const Scenario scenario = LoadScenario(
       flags.scenario,

@@ -149,7 +149,7 @@ echo "under strangers' requests: $late scans late, $missed beacons missed" >&2
 ((late <= 5 && missed <= 2)) || fail "strangers disturb the loop: $late late, $missed missed"
 
 # --- A loop that hangs is not live, and is again when it continues.
-kill -USR2 "${PID[b]}"
+kill -USR1 "${PID[b]}"
 await_health "b hangs" 3 "$B" live 1 'not live: the control loop has been silent for [0-9.]+ s'
 await_health "b hangs and is not ready" 1 "$B" ready 1 'silent for'
 await_health "a does not hang" 1 "$A" live 0 '^live$'
@@ -260,7 +260,7 @@ stops a
 "$FLEETCTL" replay "$SCRATCH"/a.*tape || fail "a's recording: exit code $?"
 
 # --- A loop that hangs does not see SIGTERM: the process ends nevertheless, and its exit code says so.
-kill -USR2 "${PID[c2]}"
+kill -USR1 "${PID[c2]}"
 await "c2 hangs" 2 c2 'the control loop hangs'
 since=$(date +%s%N)
 kill -TERM "${PID[c2]}"
@@ -290,7 +290,7 @@ await_health "d's log is not read" 1 "$A" live 0 '^live$'
 start c3 giveway-vehicle --health-port "$C" --hang-on-signal
 await_health "c3 drives" 10 "$C" ready 0 '^ready$'
 since=$(date +%s%N)
-kill -USR2 "${PID[c3]}"
+kill -USR1 "${PID[c3]}"
 ended c3 70 "$since" 6000
 grep -q 'watchdog: the control loop has made no progress' "$SCRATCH/c3.log" || fail "c3 does not say why"
 (($(grep -c '^thread ' "$SCRATCH/c3.log") >= 5)) || fail "c3 does not say where its threads are"

@@ -12,6 +12,8 @@
 #include <csignal>
 #include <cstring>
 
+#include "services/runtime/hang_signal.h"
+
 namespace giveway::fleetctl {
 namespace {
 
@@ -85,6 +87,8 @@ void ResetSignals(bool handles_stops) {
   if (handles_stops) {
     sigaddset(&blocked, SIGINT);
     sigaddset(&blocked, SIGTERM);
+    sigaddset(&blocked, HangSignal::kHang);
+    sigaddset(&blocked, HangSignal::kResume);
   }
   ::sigprocmask(SIG_SETMASK, &blocked, nullptr);
 }

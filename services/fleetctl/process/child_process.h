@@ -53,7 +53,7 @@ struct ChildCommand {
   // world's threads and free partitions may be set by it; no other flag ever is.
   bool flags_only = false;
   // It handles SIGINT and SIGTERM, and lets them pass once it does (StopSignal): until then they
-  // wait. Without this a stop that comes early ends it, as any program.
+  // wait, as do those of HangSignal. Without this a stop that comes early ends it, as any program.
   bool handles_stops = false;
   // NAME=value each, in addition to what is passed on from this process's environment.
   std::vector<std::string> environment = {};

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include <iterator>
 
 #include "services/fleetctl/args/qos_files.h"
+#include "services/runtime/hang_signal.h"
 #include "services/runtime/process.h"
 
 namespace giveway::fleetctl {
@@ -19,7 +21,6 @@ using faults::Kind;
 using faults::Target;
 using std::chrono::milliseconds;
 
-constexpr Nanoseconds kDuty = milliseconds(200);  // one turn of stopped and running
 constexpr Nanoseconds kChurnLife =
     milliseconds(1500);  // of each process that is started and killed
 constexpr std::uint32_t kFirstChurnId = 1'000'000;
@@ -39,19 +40,12 @@ bool IsStopped(pid_t pid) {
   return name_end != std::string::npos && name_end + 2 < text.size() && text[name_end + 2] == 'T';
 }
 
-// Empty if its limit is not lowered.
-std::string LimitOf(pid_t pid, __rlimit_resource resource) {
-  rlimit limit{};
-  if (::prlimit(pid, resource, nullptr, &limit) != 0 || limit.rlim_cur == limit.rlim_max) return {};
-  return fmt::format("limited to {}", limit.rlim_cur);
-}
-
 // Of proc(5): address space in bytes, from the first field of statm.
 std::uint64_t AddressSpaceOf(pid_t pid) {
   std::ifstream statm(fmt::format("/proc/{}/statm", pid));
   std::uint64_t pages = 0;
   statm >> pages;
-  return pages * 4096;
+  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
 // `fleetctl qos apply` with the flags of every order to this fleet.
@@ -172,11 +166,11 @@ std::string ProcessFaults::EffectOn(const faults::Fault& fault, MemberId member)
     case Kind::kSlow:
       return IsStopped(*pid) ? "the process is stopped" : "";
     case Kind::kMemoryLimit:
-      return LimitOf(*pid, RLIMIT_AS);
+      return LimitOf(member, RLIMIT_AS);
     case Kind::kDescriptorLimit:
-      return LimitOf(*pid, RLIMIT_NOFILE);
+      return LimitOf(member, RLIMIT_NOFILE);
     case Kind::kDiskFull:
-      return LimitOf(*pid, RLIMIT_FSIZE);
+      return LimitOf(member, RLIMIT_FSIZE);
     case Kind::kLogReaderStops:
       return "its log has no reader";
     case Kind::kDuplicateId:
@@ -277,24 +271,24 @@ void ProcessFaults::BeginOn(const faults::Fault& fault, MemberId member) {
       processes_->Signal(member, SIGSTOP);
       break;
     case Kind::kHang:
-      processes_->Signal(member, SIGUSR2);
+      processes_->Signal(member, HangSignal::kHang);
       break;
     case Kind::kSlow:
-      slow_[member].share = with.share.value_or(1);
+      slow_.insert_or_assign(member, Slow{DutyCycle(with.share.value_or(1), SteadyNow())});
       break;
     case Kind::kMemoryLimit:
       if (const auto pid = processes_->PidOf(member)) {
-        Limit(member, RLIMIT_AS,
+        Lower(member, RLIMIT_AS,
               AddressSpaceOf(*pid) + static_cast<std::uint64_t>(with.bytes.value_or(0)));
       }
       break;
     case Kind::kDescriptorLimit:
       if (const auto resources = processes_->ResourcesOf(member)) {
-        Limit(member, RLIMIT_NOFILE, resources->descriptors + with.count.value_or(0));
+        Lower(member, RLIMIT_NOFILE, resources->descriptors + with.count.value_or(0));
       }
       break;
     case Kind::kDiskFull:
-      Limit(member, RLIMIT_FSIZE, 1);
+      Lower(member, RLIMIT_FSIZE, 1);
       break;
     case Kind::kLogReaderStops:
       processes_->HearLog(member, false);
@@ -328,19 +322,19 @@ void ProcessFaults::EndOn(const faults::Fault& fault, MemberId member) {
       processes_->Signal(member, SIGCONT);
       break;
     case Kind::kHang:
-      processes_->Signal(member, SIGUSR2);
+      processes_->Signal(member, HangSignal::kResume);
       break;
     case Kind::kSlow:
       if (slow_.erase(member) > 0) processes_->Signal(member, SIGCONT);
       break;
     case Kind::kMemoryLimit:
-      Limit(member, RLIMIT_AS, std::nullopt);
+      Restore(member, RLIMIT_AS);
       break;
     case Kind::kDescriptorLimit:
-      Limit(member, RLIMIT_NOFILE, std::nullopt);
+      Restore(member, RLIMIT_NOFILE);
       break;
     case Kind::kDiskFull:
-      Limit(member, RLIMIT_FSIZE, std::nullopt);
+      Restore(member, RLIMIT_FSIZE);
       break;
     case Kind::kLogReaderStops:
       processes_->HearLog(member, true);
@@ -412,12 +406,8 @@ void ProcessFaults::BeginOrders(const faults::Fault& fault) {
                 all ? "all" : std::to_string(member.number));
 }
 
-// It runs for a share of each cycle, and is stopped for the rest.
 void ProcessFaults::TurnSlow(MemberId member, SteadyTime now, Slow* slow) {
-  if (now - slow->since >= kDuty) slow->since = now;
-  const double gone =
-      static_cast<double>((now - slow->since).count()) / static_cast<double>(kDuty.count());
-  const bool stop = gone >= slow->share;
+  const bool stop = slow->duty.IsStoppedFrom(now);
   if (stop == slow->stopped) return;
   slow->stopped = stop;
   processes_->Signal(member, stop ? SIGSTOP : SIGCONT);
@@ -440,15 +430,37 @@ void ProcessFaults::TurnChurn(SteadyTime now, Churn* churn) {
   --churn->left;
 }
 
-// Sets the soft limit; without `most`, restores it to the hard limit, which is never changed.
-void ProcessFaults::Limit(MemberId member, int resource, std::optional<std::uint64_t> most) {
+// The hard limit is never changed.
+void ProcessFaults::Lower(MemberId member, int resource, std::uint64_t most) {
   const auto pid = processes_->PidOf(member);
-  if (!pid) return;
   rlimit limit{};
   const auto which = static_cast<__rlimit_resource>(resource);
-  if (::prlimit(*pid, which, nullptr, &limit) != 0) return;
-  limit.rlim_cur = most ? std::min<rlim_t>(*most, limit.rlim_max) : limit.rlim_max;
+  if (!pid || ::prlimit(*pid, which, nullptr, &limit) != 0) return;
+  lowered_[{member, resource}] = {*pid, limit.rlim_cur};
+  limit.rlim_cur = std::min<rlim_t>(most, limit.rlim_cur);
   ::prlimit(*pid, which, &limit, nullptr);
+}
+
+// One that has started again since has its own limits.
+void ProcessFaults::Restore(MemberId member, int resource) {
+  const auto lowered = lowered_.extract({member, resource});
+  if (lowered.empty() || processes_->PidOf(member) != lowered.mapped().pid) return;
+  rlimit limit{};
+  const auto which = static_cast<__rlimit_resource>(resource);
+  if (::prlimit(lowered.mapped().pid, which, nullptr, &limit) != 0) return;
+  limit.rlim_cur = lowered.mapped().before;
+  ::prlimit(lowered.mapped().pid, which, &limit, nullptr);
+}
+
+// Empty if it is not lowered.
+std::string ProcessFaults::LimitOf(MemberId member, int resource) const {
+  const auto lowered = lowered_.find({member, resource});
+  if (lowered == lowered_.end() || processes_->PidOf(member) != lowered->second.pid) return {};
+  rlimit limit{};
+  const auto which = static_cast<__rlimit_resource>(resource);
+  if (::prlimit(lowered->second.pid, which, nullptr, &limit) != 0) return {};
+  return limit.rlim_cur < lowered->second.before ? fmt::format("limited to {}", limit.rlim_cur)
+                                                 : "";
 }
 
 }  // namespace giveway::fleetctl

@@ -4,6 +4,8 @@
 // a fault had an effect is checked elsewhere.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -11,11 +13,13 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "services/faults/fault.h"
 #include "services/fleetctl/process/child_process.h"
 #include "services/fleetctl/process/fleet_processes.h"
+#include "services/fleetctl/soak/host_faults/duty_cycle.h"
 #include "services/fleetctl/soak/host_faults/private_shm.h"
 #include "services/fleetctl/soak/host_faults/qos_orders.h"
 #include "services/fleetctl/soak/host_faults/steppable_clock.h"
@@ -82,9 +86,13 @@ class ProcessFaults {
 
  private:
   struct Slow {
-    double share = 1;
-    SteadyTime since{0};
+    DutyCycle duty;
     bool stopped = false;
+  };
+  // A soft limit as it was before a fault lowered it, of the process that had it.
+  struct Lowered {
+    pid_t pid = 0;
+    std::uint64_t before = 0;
   };
   struct Churn {
     std::uint32_t left = 0;
@@ -107,7 +115,9 @@ class ProcessFaults {
   void BeginOrders(const faults::Fault& fault);
   void TurnSlow(MemberId member, SteadyTime now, Slow* slow);
   void TurnChurn(SteadyTime now, Churn* churn);
-  void Limit(MemberId member, int resource, std::optional<std::uint64_t> most);
+  void Lower(MemberId member, int resource, std::uint64_t most);
+  void Restore(MemberId member, int resource);
+  std::string LimitOf(MemberId member, int resource) const;
 
   FaultTools tools_;
   FleetProcesses* processes_;
@@ -116,7 +126,8 @@ class ProcessFaults {
   std::set<MemberId> returning_;  // killed, to be restarted when the fault is over
   std::map<const faults::Fault*, std::string> shm_effects_;
   std::map<MemberId, Slow> slow_;
-  std::map<MemberId, std::uint64_t> moved_before_;  // readings, before the clock's last step
+  std::map<std::pair<MemberId, int>, Lowered> lowered_;  // by resource
+  std::map<MemberId, std::uint64_t> moved_before_;       // readings, before the clock's last step
   std::map<const faults::Fault*, Churn> churns_;
   QosOrders orders_;
   std::map<const faults::Fault*, std::vector<std::unique_ptr<ChildProcess>>> doubles_;

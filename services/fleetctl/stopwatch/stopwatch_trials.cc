@@ -10,6 +10,7 @@
 
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/stopwatch/stopwatch_plan.h"
+#include "services/runtime/hang_signal.h"
 #include "services/runtime/process.h"
 
 namespace giveway::fleetctl {
@@ -165,7 +166,7 @@ class Conductor {
     const std::map<Fault, int> signals = {{Fault::kKill, SIGKILL},
                                           {Fault::kPause, SIGSTOP},
                                           {Fault::kExit, SIGTERM},
-                                          {Fault::kHung, SIGUSR2}};
+                                          {Fault::kHung, HangSignal::kHang}};
     const SteadyTime now = SteadyNow();
     fleet_.Signal(target, signals.at(task_.fault));
     if (task_.fault != Fault::kHung) return now;
@@ -238,7 +239,7 @@ class Conductor {
   // A vehicle that was dropped by its peers, or left, returns as a new process: see PlanWaves.
   void Heal() {
     for (const VehicleId target : targets_) {
-      task_.fault == Fault::kHung ? fleet_.Signal(target, SIGUSR2) : Revive(target);
+      task_.fault == Fault::kHung ? fleet_.Signal(target, HangSignal::kResume) : Revive(target);
     }
     targets_.clear();
   }

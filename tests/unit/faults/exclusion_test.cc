@@ -69,6 +69,16 @@ TEST(Exclusion, AKilledVehicleGetsNothingMoreAndEveryOtherDoes) {
   }
 }
 
+// It was accepted, and its restart brought the vehicle back.
+TEST(Exclusion, NoneIsKilledWhileAllAreAway) {
+  const Fault restart = Of(Kind::kRestart, kAllTarget, 30, 4);
+  EXPECT_TRUE(Exclude(restart, Of(Kind::kKill, Vehicle(2), 32, 0)));
+  EXPECT_TRUE(Exclude(Of(Kind::kKill, Vehicle(2), 32, 0), restart));
+  EXPECT_FALSE(Exclude(restart, Of(Kind::kKill, Vehicle(2), 29, 0)));
+  EXPECT_FALSE(Exclude(restart, Of(Kind::kKill, Vehicle(2), 35, 0)));
+  EXPECT_FALSE(Exclude(Of(Kind::kPause, kAllTarget, 30, 4), Of(Kind::kKill, Vehicle(2), 32, 0)));
+}
+
 TEST(Exclusion, EndsCountAsWithin) {
   const Fault first = Of(Kind::kPause, Vehicle(1), 10, 5);
   const Fault at_its_end = Of(Kind::kPause, Vehicle(1), 15, 1);

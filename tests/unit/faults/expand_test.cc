@@ -79,6 +79,26 @@ TEST(Expand, TwoAtRulesThatExcludeEachOtherAreRefusedAndBothNamed) {
                                                        HasSubstr("exclude each other"))))));
 }
 
+// All pairs of a few thousand took gigabytes.
+TEST(Expand, OfVeryManyThatExcludeEachOtherTheFirstAreNamedAndTheRestCounted) {
+  FaultFile file;
+  for (int i = 0; i < 50; ++i) file.at.push_back(At("stand", Kind::kPause, Vehicle(1), 10, 5));
+  const auto refused = RefusedOf(file);
+  ASSERT_THAT(refused, SizeIs(100));
+  EXPECT_THAT(refused.back(), Field(&Refusal::message, HasSubstr("; and 1125 more pairs do")));
+}
+
+TEST(Expand, NoVehicleIsCutFromItself) {
+  FaultFile planned{.at = {At("cut", Kind::kOneWayCut, Vehicle(1), 1, 1)}};
+  planned.at[0].parameters.from = VehicleId{1};
+  EXPECT_THAT(RefusedOf(planned), ElementsAre(Field(&Refusal::field, "from")));
+  RandomRule drawn = Randomly("cuts", Kind::kOneWayCut, 10, 1, 1);
+  drawn.parameters.from = VehicleId{3};
+  const Schedule schedule = ScheduleOf({.random = {drawn}});
+  EXPECT_GT(schedule.size(), 50U);
+  for (const Fault& fault : schedule) EXPECT_NE(fault.target.vehicle, VehicleId{3});
+}
+
 TEST(Expand, ARandomFaultMakesWayToAnAtRuleAndToAnEarlierOne) {
   const Targets one{Targets::What::kNamed, {VehicleId{1}}};
   const FaultFile file{.at = {At("planned", Kind::kPause, Vehicle(1), 100, 3000)},

@@ -13,14 +13,40 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(HangSignal, TheFirstMakesTheLoopHangAndTheNextLetsItGo) {
+TEST(HangSignal, OneMakesTheLoopHangAndTheOtherLetsItGo) {
   EXPECT_FALSE(HangSignal::IsUp());
   const HangSignal drill;
   EXPECT_FALSE(HangSignal::IsUp());
-  std::raise(SIGUSR2);
+  std::raise(HangSignal::kHang);
   EXPECT_TRUE(HangSignal::IsUp());
-  std::raise(SIGUSR2);
+  std::raise(HangSignal::kHang);
+  EXPECT_TRUE(HangSignal::IsUp());
+  std::raise(HangSignal::kResume);
   EXPECT_FALSE(HangSignal::IsUp());
+  // To one that was restarted meanwhile, and does not hang.
+  std::raise(HangSignal::kResume);
+  EXPECT_FALSE(HangSignal::IsUp());
+}
+
+// A vehicle that has just been started by a soak was ended by one.
+TEST(HangSignal, ThoseThatCameBeforeItWaitAndAreHandledInOrder) {
+  sigset_t both;
+  sigset_t before;
+  sigemptyset(&both);
+  sigaddset(&both, HangSignal::kHang);
+  sigaddset(&both, HangSignal::kResume);
+  pthread_sigmask(SIG_BLOCK, &both, &before);
+  std::raise(HangSignal::kHang);
+  {
+    const HangSignal drill;
+    EXPECT_TRUE(HangSignal::IsUp());
+  }
+  pthread_sigmask(SIG_BLOCK, &both, nullptr);
+  std::raise(HangSignal::kResume);
+  std::raise(HangSignal::kHang);
+  const HangSignal drill;
+  EXPECT_FALSE(HangSignal::IsUp());
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
 TEST(Identity, IsReadFromTheProcessThatPublishesIt) {

@@ -38,7 +38,9 @@ SoakResult ReadResult(const std::string& folder) {
 faults::Schedule Around(const faults::Schedule& schedule, double time_s) {
   faults::Schedule around;
   std::ranges::copy_if(schedule, std::back_inserter(around), [time_s](const faults::Fault& fault) {
-    return fault.at_s <= time_s + kAroundAfter_s && fault.EndsAt_s() >= time_s - kAroundBefore_s;
+    const bool lasts =
+        fault.kind == faults::Kind::kKill || fault.EndsAt_s() >= time_s - kAroundBefore_s;
+    return fault.at_s <= time_s + kAroundAfter_s && lasts;
   });
   return around;
 }

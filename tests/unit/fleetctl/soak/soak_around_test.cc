@@ -29,6 +29,12 @@ TEST(SoakAround, TakesWhatWasOnOrBeganAMinuteBeforeAndALittleAfter) {
   EXPECT_THAT(RulesAround(schedule, 100), ElementsAre("reaches in", "in", "just after"));
 }
 
+TEST(SoakAround, KeepsWhoWasKilledLongBefore) {
+  faults::Fault kill = Pause("kill", 10, 0);
+  kill.kind = faults::Kind::kKill;
+  EXPECT_THAT(RulesAround({kill, Pause("over", 11, 2)}, 180), ElementsAre("kill"));
+}
+
 TEST(SoakAround, LeavesTheTimesAsTheyWere) {
   EXPECT_EQ(Around({Pause("in", 90, 1)}, 100).at(0).at_s, 90);
 }
