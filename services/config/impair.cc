@@ -356,9 +356,12 @@ class Parser {
 
 namespace {
 
+// The rules of a soak of weeks: 30 MB for 30 days of `radio_storm` with 8 vehicles.
+constexpr std::uintmax_t kMaxRulesBytes = 64U << 20;
+
 ParsedImpairment ParseFile(const std::string& path) {
   try {
-    std::string text = ReadTextFile(path);
+    std::string text = ReadTextFile(path, kMaxRulesBytes);
     text.erase(text.find_last_not_of(" \t\r\n") + 1);
     return Parser(kMaxImpairRulesOfFile).Parse(text);
   } catch (const InputError& error) {

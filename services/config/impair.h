@@ -38,7 +38,7 @@ struct ImpairField {
 
 inline constexpr Allowed kBlackoutTime{0, 2592000, "s"};  // and of from_s, to_s of a rule
 inline constexpr int kMaxImpairRules = 1024;              // in a scenario or a word
-inline constexpr int kMaxImpairRulesOfFile = 100000;      // in a file that a word names
+inline constexpr int kMaxImpairRulesOfFile = 1000000;     // in a file that a word names
 inline constexpr int kMaxBlackouts = 1024;
 
 std::span<const ImpairField> ImpairFields();

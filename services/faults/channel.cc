@@ -1,6 +1,8 @@
 #include "services/faults/channel.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <map>
 #include <optional>
 #include <set>
 #include <vector>
@@ -92,6 +94,29 @@ bool IsCut(Kind kind) {
   return kind == Kind::kOneWayCut || kind == Kind::kPartition || kind == Kind::kFlapping;
 }
 
+// Those of a list that are active, as time passes: each is looked at once as it begins and once as
+// it ends, because a list of weeks has hundreds of thousands.
+template <typename Lasting>
+class Sweep {
+ public:
+  // `all` by their begin; outlives this.
+  explicit Sweep(const std::vector<Lasting>& all) : all_(all) {}
+
+  // Those that last from `from_s` to `to_s`, which begin and end no sooner than at the last call.
+  const std::vector<const Lasting*>& Through(double from_s, double to_s) {
+    for (; next_ < all_.size() && all_[next_].from_s <= from_s; ++next_) {
+      active_.push_back(&all_[next_]);
+    }
+    std::erase_if(active_, [to_s](const Lasting* one) { return one->to_s < to_s; });
+    return active_;
+  }
+
+ private:
+  const std::vector<Lasting>& all_;
+  std::size_t next_ = 0;
+  std::vector<const Lasting*> active_;
+};
+
 // The hearer's rules. Between two moments at which something starts or ends one rule holds for all
 // vehicles, and after it, since the last that fits counts, one for each that is cut off alone.
 class Rules {
@@ -102,66 +127,82 @@ class Rules {
       if (const auto cut = CutOf(fault, hearer)) {
         cuts_.push_back(*cut);
       } else if (!IsCut(fault.kind) && Meets(fault, hearer)) {
-        faults_.push_back(&fault);
+        faults_.push_back({&fault, fault.at_s, fault.EndsAt_s()});
       }
     }
+    std::ranges::stable_sort(faults_, {}, &Disturbance::from_s);
+    std::ranges::stable_sort(cuts_, {}, &Cut::from_s);
   }
 
   std::vector<ImpairmentRule> Made(double since_s) const {
     const std::vector<double> moments = Moments();
+    Sweep faults(faults_);
+    Sweep cuts(cuts_);
     std::vector<ImpairmentRule> rules;
     for (std::size_t i = 1; i < moments.size(); ++i) {
-      if (moments[i] > since_s) Between(moments[i - 1], moments[i], since_s, &rules);
+      const Span span{moments[i - 1], moments[i], since_s};
+      const auto& active = faults.Through(span.from_s, span.to_s);
+      const auto& cut = cuts.Through(span.from_s, span.to_s);
+      if (span.to_s > since_s) AddRules(span, active, cut, &rules);
     }
     return rules;
   }
 
  private:
+  struct Disturbance {
+    const Fault* fault;
+    double from_s;
+    double to_s;
+  };
+  // Between two neighbouring moments; the vehicle counts from `since_s`.
+  struct Span {
+    double from_s;
+    double to_s;
+    double since_s;
+  };
+
   std::vector<double> Moments() const {
     std::set<double> moments;
-    for (const Fault* fault : faults_) moments.insert({fault->at_s, fault->EndsAt_s()});
+    for (const Disturbance& one : faults_) moments.insert({one.from_s, one.to_s});
     for (const Cut& cut : cuts_) moments.insert({cut.from_s, cut.to_s});
     return {moments.begin(), moments.end()};
   }
 
-  static void Black(const Cut& cut, double from_s, double to_s, double since_s,
-                    ImpairmentRule* rule) {
+  static void Black(const Cut& cut, const Span& span, ImpairmentRule* rule) {
     for (const Blackout& time : cut.times) {
-      const double begin_s = std::max({time.from_s, from_s, since_s});
-      const double end_s = std::min(time.to_s, to_s);
-      if (begin_s < end_s) rule->blackouts.push_back({begin_s - since_s, end_s - since_s});
+      const double begin_s = std::max({time.from_s, span.from_s, span.since_s});
+      const double end_s = std::min(time.to_s, span.to_s);
+      if (begin_s < end_s) {
+        rule->blackouts.push_back({begin_s - span.since_s, end_s - span.since_s});
+      }
     }
   }
 
-  void Between(double from_s, double to_s, double since_s,
-               std::vector<ImpairmentRule>* rules) const {
+  static void AddRules(const Span& span, const std::vector<const Disturbance*>& faults,
+                       const std::vector<const Cut*>& cuts, std::vector<ImpairmentRule>* rules) {
     ImpairmentRule all{.from = ImpairedSender::kVehicles};
-    all.from_s = std::max(from_s, since_s) - since_s;
-    all.to_s = to_s - since_s;
-    bool any = false;
-    for (const Fault* fault : faults_) {
-      if (fault->at_s > from_s || fault->EndsAt_s() < to_s) continue;
-      Apply(*fault, &all);
+    all.from_s = std::max(span.from_s, span.since_s) - span.since_s;
+    all.to_s = span.to_s - span.since_s;
+    for (const Disturbance* one : faults) Apply(*one->fault, &all);
+    bool any = !faults.empty();
+    for (const Cut* cut : cuts) {
+      if (cut->from != kNoVehicle) continue;
       any = true;
-    }
-    std::map<VehicleId, ImpairmentRule> alone;
-    for (const Cut& cut : cuts_) {
-      if (cut.from_s > from_s || cut.to_s < to_s) continue;
-      any = any || cut.from == kNoVehicle;
-      if (cut.from == kNoVehicle) Black(cut, from_s, to_s, since_s, &all);
+      Black(*cut, span, &all);
     }
     if (any) rules->push_back(all);
-    for (const Cut& cut : cuts_) {
-      if (cut.from_s > from_s || cut.to_s < to_s || cut.from == kNoVehicle) continue;
-      ImpairmentRule& rule = alone.try_emplace(cut.from, all).first->second;
+    std::map<VehicleId, ImpairmentRule> alone;
+    for (const Cut* cut : cuts) {
+      if (cut->from == kNoVehicle) continue;
+      ImpairmentRule& rule = alone.try_emplace(cut->from, all).first->second;
       rule.from = ImpairedSender::kOneVehicle;
-      rule.from_vehicle = cut.from;
-      Black(cut, from_s, to_s, since_s, &rule);
+      rule.from_vehicle = cut->from;
+      Black(*cut, span, &rule);
     }
     for (const auto& [from, rule] : alone) rules->push_back(rule);
   }
 
-  std::vector<const Fault*> faults_;
+  std::vector<Disturbance> faults_;
   std::vector<Cut> cuts_;
 };
 

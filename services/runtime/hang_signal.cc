@@ -29,8 +29,8 @@ sigset_t Both() {
 HangSignal::HangSignal() {
   is_up = false;
   struct sigaction action {};
-  action.sa_mask =
-      Both();  // of two that wait the lower number, the hang, is handled to its end first
+  // Of two that wait the lower number, the hang, is handled to its end first.
+  action.sa_mask = Both();
   action.sa_handler = OnSignal;
   GIVEWAY_CHECK(sigaction(kHang, &action, &hang_before_) == 0);
   GIVEWAY_CHECK(sigaction(kResume, &action, &resume_before_) == 0);

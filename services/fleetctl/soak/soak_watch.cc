@@ -71,6 +71,11 @@ bool ShowsInCounters(Kind kind) {
   return false;
 }
 
+// As the world names it in its events.
+std::string NameInEvents(const faults::Fault& fault) {
+  return fmt::format("{} {} of {}", faults::ToString(fault.kind), fault.nth, fault.rule);
+}
+
 std::string_view CounterOf(Kind kind) {
   switch (kind) {
     case Kind::kQosMismatch:
@@ -107,6 +112,11 @@ bool IsWell(const VehicleStatus& status) {
 SoakWatch::SoakWatch(const std::vector<VehicleId>& fleet, std::span<const faults::Fault> schedule)
     : schedule_(schedule), courses_(schedule.size()), before_(schedule.size()) {
   for (const VehicleId vehicle : fleet) views_[vehicle];
+  for (std::size_t i = 0; i < schedule.size(); ++i) {
+    if (faults::ActorOf(schedule[i].kind) == faults::Actor::kWorld) {
+      of_world_.emplace(NameInEvents(schedule[i]), i);
+    }
+  }
 }
 
 void SoakWatch::Fold(const link::Observed& observed, SteadyTime now) {
@@ -139,14 +149,10 @@ void SoakWatch::FoldStatus(const VehicleStatus& status, SteadyTime now) {
 // The world reports its own faults.
 void SoakWatch::FoldEvent(const WorldEvent& event) {
   if (event.kind != EventKind::kFaultBegan) return;
-  for (std::size_t i = 0; i < courses_.size(); ++i) {
-    const faults::Fault& fault = schedule_[i];
-    if (faults::ActorOf(fault.kind) != faults::Actor::kWorld || !courses_[i].effect.empty())
-      continue;
-    const std::string name =
-        fmt::format("{} {} of {}", faults::ToString(fault.kind), fault.nth, fault.rule);
-    if (event.text == name) courses_[i].effect = "the world reports that the fault started";
-  }
+  const auto named = of_world_.find(event.text);
+  if (named == of_world_.end()) return;
+  std::string& effect = courses_[named->second].effect;
+  if (effect.empty()) effect = "the world reports that the fault started";
 }
 
 // A partition is visible from both sides: from the target, and from the peers that lost it. What is

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "services/faults/fault.h"
@@ -85,6 +86,7 @@ class SoakWatch {
   bool Concerns(const faults::Fault& fault, VehicleId vehicle) const;
 
   std::span<const faults::Fault> schedule_;
+  std::unordered_map<std::string, std::size_t> of_world_;  // faults by their name in events
   std::map<VehicleId, View> views_;
   std::vector<FaultCourse> courses_;
   // The counts at the start of the fault, by vehicle, from which its effect is measured. Only of

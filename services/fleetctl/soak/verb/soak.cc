@@ -244,7 +244,7 @@ FaultTools ToolsOf(const SoakOptions& options, const FleetSpec& spec, const Prep
               WithPatientReaders(ReadTextFile(spec.qos_file), spec.qos_file));
   }
   tools.impairment_since = [&prepared, folder](VehicleId vehicle, double since_s) {
-    const auto impaired = faults::ImpairmentOf(prepared.schedule, prepared.fleet, since_s);
+    const auto impaired = faults::ImpairmentOf(prepared.schedule, {{vehicle}}, since_s);
     const auto found = impaired.find(vehicle);
     return found == impaired.end() ? std::string() : ImpairFlag(folder, vehicle, found->second);
   };
