@@ -94,15 +94,15 @@ bool IsCut(Kind kind) {
   return kind == Kind::kOneWayCut || kind == Kind::kPartition || kind == Kind::kFlapping;
 }
 
-// Those of a list that are active, as time passes: each is looked at once as it begins and once as
-// it ends, because a list of weeks has hundreds of thousands.
+// Those of a list that are active, as time passes: each is looked at once when it starts and once
+// when it ends, because a list of weeks has hundreds of thousands.
 template <typename Lasting>
 class Sweep {
  public:
-  // `all` by their begin; outlives this.
+  // `all` in order of their start; outlives this.
   explicit Sweep(const std::vector<Lasting>& all) : all_(all) {}
 
-  // Those that last from `from_s` to `to_s`, which begin and end no sooner than at the last call.
+  // Those that last from `from_s` to `to_s`, which are no earlier than at the last call.
   const std::vector<const Lasting*>& Through(double from_s, double to_s) {
     for (; next_ < all_.size() && all_[next_].from_s <= from_s; ++next_) {
       active_.push_back(&all_[next_]);

@@ -70,10 +70,20 @@ bool Deafens(const Fault& a, const Fault& b) {
   return Silences(a.kind) && ActorOf(b.kind) == Actor::kAttacker && a.target == b.target;
 }
 
+// The target hears nothing for as long as the other lasts, and until it has joined again: there is
+// nothing to lose, delay or cut.
+bool IsWithin(const Fault& heard, const Fault& silence) {
+  constexpr double kUntilHeard_s = 3;
+  return ActorOf(heard.kind) == Actor::kHearer && Silences(silence.kind) &&
+         heard.target.what == Target::What::kVehicle && heard.at_s >= silence.at_s &&
+         heard.EndsAt_s() <= silence.EndsAt_s() + kUntilHeard_s;
+}
+
 bool KindsExclude(const Fault& a, const Fault& b) {
   if (a.kind == b.kind) return true;
   if (a.kind == Kind::kKill || b.kind == Kind::kKill) return true;
   if (Deafens(a, b) || Deafens(b, a)) return true;
+  if (IsWithin(a, b) || IsWithin(b, a)) return true;
   const Group group = GroupOf(a.kind);
   return group != Group::kAlone && group == GroupOf(b.kind);
 }

@@ -189,18 +189,24 @@ Radio::Fate Radio::FateOf(std::uint64_t draw) const {
 
 // Determines its fate by the rules that were active when it was sent; false: one of them loses it.
 bool Radio::SurvivesRules(std::size_t receiver, std::size_t sender, std::uint32_t ticks,
-                          Fate* fate) const {
+                          Fate* fate) {
   const RadioRules::Effect effect = rules_.Of(receiver, sender, ticks, Number(now_) - ticks);
   fate->twice = fate->twice || effect.twice;
   fate->due = std::min(fate->due + effect.late_ticks, most_ticks_ - (fate->twice ? 1 : 0));
   return !effect.lost;
 }
 
+bool Radio::HasJustSent(std::size_t sender) const {
+  if (shortest_ticks_ >= Number(now_)) return false;
+  const std::uint32_t sent_tick = Number(now_) - shortest_ticks_;
+  return history_[sender * kept_ticks_ + sent_tick % kept_ticks_].tick == Tick{sent_tick};
+}
+
 void Radio::HearSender(std::size_t receiver, std::size_t sender,
                        std::vector<ReceivedBeacon>* heard) {
   if (blacked_out_[sender] != 0) return;
   const bool ruled = rules_.Any();
-  if (ruled && rules_.IsCut(receiver, sender)) return;
+  if (ruled && rules_.IsCut(receiver, sender, HasJustSent(sender))) return;
   Pair& pair = pairs_[receiver * count_ + sender];
   if (KnowsItIsFar(receiver, sender, &pair)) return;
   const std::size_t first = heard->size();

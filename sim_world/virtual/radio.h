@@ -40,6 +40,8 @@ class Radio {
   void Hear(std::size_t receiver, std::vector<ReceivedBeacon>* heard);
   // Appends what the middleware reports in this tick of peers it heard before; call after Hear.
   void Notice(std::size_t receiver, std::vector<QosEvent>* events);
+  // Of the rules of the settings; see there.
+  bool HasActed(std::uint64_t draws) const { return rules_.HasActed(draws); }
 
  private:
   // Of an ordered pair.
@@ -67,8 +69,8 @@ class Radio {
   bool IsLinkBad(std::size_t receiver, std::size_t sender, Pair* pair) const;
   bool IsLost(std::size_t receiver, std::size_t sender, std::uint64_t draw, Pair* pair) const;
   Fate FateOf(std::uint64_t draw) const;
-  bool SurvivesRules(std::size_t receiver, std::size_t sender, std::uint32_t ticks,
-                     Fate* fate) const;
+  bool SurvivesRules(std::size_t receiver, std::size_t sender, std::uint32_t ticks, Fate* fate);
+  bool HasJustSent(std::size_t sender) const;
   void HearSender(std::size_t receiver, std::size_t sender, std::vector<ReceivedBeacon>* heard);
   void MarkHeard(std::size_t receiver, std::size_t sender, Pair* pair);
   bool HasLeft(std::size_t receiver, std::size_t sender, const Pair& pair) const;

@@ -68,20 +68,34 @@ void RadioRules::BeginTick(double time_s) {
   Follow(now_, kLongestTicks + 1, &changes_);
 }
 
-bool RadioRules::IsCut(std::size_t hearer, std::size_t speaker) const {
-  return std::ranges::any_of(cuts_.live, [&](std::uint32_t i) {
-    const Timed& cut = cuts_.all[i];
-    return IsOn(cut, now_) &&
-           (Fits(cut, hearer, speaker) || (cut.rule.both_ways && Fits(cut, speaker, hearer)));
-  });
+bool RadioRules::IsCut(std::size_t hearer, std::size_t speaker, bool speaks) {
+  bool is_cut = false;
+  for (const std::uint32_t i : cuts_.live) {
+    Timed& cut = cuts_.all[i];
+    const bool fits =
+        Fits(cut, hearer, speaker) || (cut.rule.both_ways && Fits(cut, speaker, hearer));
+    if (!fits || !IsOn(cut, now_)) continue;
+    is_cut = true;
+    cut.has_acted = cut.has_acted || speaks;
+  }
+  return is_cut;
+}
+
+bool RadioRules::HasActed(std::uint64_t draws) const {
+  const auto has = [draws](const Rules& rules) {
+    return std::ranges::any_of(rules.live, [&](std::uint32_t i) {
+      return rules.all[i].rule.draws == draws && rules.all[i].has_acted;
+    });
+  };
+  return has(cuts_) || has(changes_);
 }
 
 RadioRules::Effect RadioRules::Of(std::size_t hearer, std::size_t speaker, std::uint32_t ticks_ago,
-                                  std::uint32_t sent_tick) const {
+                                  std::uint32_t sent_tick) {
   Effect effect;
   const std::uint64_t pair = hearer * count_ + speaker;
   for (const std::uint32_t i : changes_.live) {
-    const Timed& timed = changes_.all[i];
+    Timed& timed = changes_.all[i];
     const RadioRule& rule = timed.rule;
     if (!IsOn(timed, now_ - ticks_ago) || !Fits(timed, hearer, speaker)) continue;
     Random each(seed_ ^ rule.draws, pair << 32U | sent_tick);
@@ -92,7 +106,9 @@ RadioRules::Effect RadioRules::Of(std::size_t hearer, std::size_t speaker, std::
     const bool in_row = rule.burst_loss > 0 && rows.Uniform(0, 1) < rule.burst_loss;
     effect.lost = effect.lost || lost || in_row;
     effect.twice = effect.twice || twice;
-    effect.late_ticks += timed.late + (held_back ? timed.reorder_late : 0);
+    const std::uint32_t late = timed.late + (held_back ? timed.reorder_late : 0);
+    effect.late_ticks += late;
+    timed.has_acted = timed.has_acted || lost || in_row || twice || late > 0;
   }
   return effect;
 }

@@ -31,7 +31,8 @@ class RadioRules {
   // Whether any rule affects what is received now.
   bool Any() const { return !cuts_.live.empty() || !changes_.live.empty(); }
 
-  bool IsCut(std::size_t hearer, std::size_t speaker) const;
+  // Of what would be received now. `speaks`: there is a beacon.
+  bool IsCut(std::size_t hearer, std::size_t speaker, bool speaks);
 
   struct Effect {
     bool lost = false;
@@ -40,7 +41,10 @@ class RadioRules {
   };
   // Of a beacon that was sent that many ticks ago, in the tick of that number.
   Effect Of(std::size_t hearer, std::size_t speaker, std::uint32_t ticks_ago,
-            std::uint32_t sent_tick) const;
+            std::uint32_t sent_tick);
+  // Whether a beacon was lost, delayed, doubled or cut off by the rule of these draws, while it has
+  // a say.
+  bool HasActed(std::uint64_t draws) const;
 
  private:
   static constexpr std::uint32_t kAnyone = 0xffffffff;
@@ -54,6 +58,7 @@ class RadioRules {
     std::uint32_t speaker = kAnyone;
     std::uint32_t late = 0;
     std::uint32_t reorder_late = 0;
+    bool has_acted = false;
   };
 
   // Those that have a say for a while, of all in order of their start.

@@ -28,13 +28,6 @@ std::optional<ProcessFaultKind> ProcessKindOf(Kind kind) {
   }
 }
 
-std::uint64_t DrawsOf(const faults::Fault& fault) {
-  StateHash hash;
-  for (const char letter : fault.rule) hash.Add(std::uint64_t{static_cast<unsigned char>(letter)});
-  hash.Add(fault.nth);
-  return hash.Value();
-}
-
 // The rule is of one hearer, or of every vehicle.
 RadioRule RadioRuleOf(const faults::Fault& fault) {
   const faults::Parameters with = faults::Filled(fault.kind, fault.parameters);
@@ -92,6 +85,13 @@ void AddProcessFaults(const faults::Fault& fault, ProcessFaultKind kind, const S
 }
 
 }  // namespace
+
+std::uint64_t DrawsOf(const faults::Fault& fault) {
+  StateHash hash;
+  for (const char letter : fault.rule) hash.Add(std::uint64_t{static_cast<unsigned char>(letter)});
+  hash.Add(fault.nth);
+  return hash.Value();
+}
 
 VirtualPlan Translated(const VirtualPlan& plan, const Scenario& scenario) {
   VirtualPlan translated = plan;

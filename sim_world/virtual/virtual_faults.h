@@ -3,10 +3,16 @@
 // in, values out.
 #pragma once
 
+#include <cstdint>
+
+#include "services/faults/fault.h"
 #include "services/types/scenario.h"
 #include "sim_world/virtual/virtual_plan.h"
 
 namespace giveway::sim {
+
+// The number by which a rule of the radio draws, one for each fault.
+std::uint64_t DrawsOf(const faults::Fault& fault);
 
 // The scenario's plan with the schedule's faults of processes and radio added; those of all
 // vehicles become one for each. What a virtual run cannot inject is ignored: a caller refuses it,

@@ -216,6 +216,10 @@ void VirtualFleet::Queue(std::size_t index) {
   }
 }
 
+bool VirtualFleet::HasMetBeacons(const faults::Fault& fault) const {
+  return radio_.HasActed(DrawsOf(fault));
+}
+
 bool VirtualFleet::Advance() {
   run_.Advance(commands_);
   CarryOutFaults();

@@ -34,6 +34,9 @@ class VirtualFleet {
   const Outputs& OutputsOf(std::size_t index) const { return members_[index].outputs; }
   // True if the vehicle's process answered this tick: it runs and is not paused.
   bool Answered(std::size_t index) const { return members_[index].answered; }
+  // Whether a beacon was lost, delayed, doubled or cut off by this fault of the schedule's so far;
+  // known until some ticks after its end.
+  bool HasMetBeacons(const faults::Fault& fault) const;
   // Every event of the run so far.
   const std::vector<WorldEvent>& History() const { return history_; }
   // Of every command given so far, in order: fleets that ever differed have different hashes.

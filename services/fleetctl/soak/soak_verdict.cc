@@ -210,7 +210,7 @@ class SoakEvaluation {
     const faults::Fault& fault = from_.schedule[number];
     const FaultCourse& course = from_.seen.courses[number];
     if (!course.began) return;
-    if (!entry.observed) {
+    if (!entry.observed && !course.met_nothing) {
       AddViolation(fault.at_s, fault.target.vehicle, "effect",
                    fmt::format("{} was ordered, and no effect of it was seen{}{}", NameOf(entry),
                                course.failure.empty() ? "" : ": ", course.failure));

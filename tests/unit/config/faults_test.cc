@@ -127,7 +127,7 @@ TEST(FaultsFile, IsRefusedFieldByField) {
   ExpectRefused(R"(at { name: "a" time_s: 1 kind: "kill" vehicle: 1 for_s: 1 })", "at[0].for_s",
                 "takes no time");
   ExpectRefused(R"(at { name: "a" time_s: 1 kind: "loss" vehicle: 1 for_s: 1 probability: 1.5 })",
-                "at[0].probability", "between 0 and 1");
+                "at[0].probability", "between 0.001 and 1");
   ExpectRefused(R"(at { name: "a" time_s: 1 kind: "burst" vehicle: 1 for_s: 1 count: 9 })",
                 "at[0].count", "between 10 and 10000");
   ExpectRefused(R"(at { name: "a" time_s: 1 kind: "loss" vehicle: 1 for_s: 1 delay_s: 1 })",

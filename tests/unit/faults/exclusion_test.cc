@@ -79,6 +79,16 @@ TEST(Exclusion, NoneIsKilledWhileAllAreAway) {
   EXPECT_FALSE(Exclude(Of(Kind::kPause, kAllTarget, 30, 4), Of(Kind::kKill, Vehicle(2), 32, 0)));
 }
 
+// It had no effect, and failed the soak by that.
+TEST(Exclusion, NothingIsLostByOneThatIsAwayMeanwhile) {
+  const Fault restart = Of(Kind::kRestart, Vehicle(1), 30, 5);
+  EXPECT_TRUE(Exclude(restart, Of(Kind::kLoss, Vehicle(1), 31, 3)));
+  EXPECT_TRUE(Exclude(Of(Kind::kOneWayCut, Vehicle(1), 31, 6), restart));
+  EXPECT_FALSE(Exclude(restart, Of(Kind::kLoss, Vehicle(1), 31, 20)));
+  EXPECT_FALSE(Exclude(restart, Of(Kind::kLoss, Vehicle(2), 31, 3)));
+  EXPECT_FALSE(Exclude(restart, Of(Kind::kLoss, kAllTarget, 31, 3)));
+}
+
 TEST(Exclusion, EndsCountAsWithin) {
   const Fault first = Of(Kind::kPause, Vehicle(1), 10, 5);
   const Fault at_its_end = Of(Kind::kPause, Vehicle(1), 15, 1);

@@ -20,7 +20,7 @@ std::vector<int> CutTicks(const RadioRule& rule, std::size_t hearer, std::size_t
   std::vector<int> cut;
   for (int tick = 0; tick < 100; ++tick) {
     rules.BeginTick(0.05 * tick);
-    if (rules.IsCut(hearer, speaker)) cut.push_back(tick);
+    if (rules.IsCut(hearer, speaker, true)) cut.push_back(tick);
     EXPECT_EQ(rules.Any(), tick >= 20 && tick < 40);
   }
   return cut;
@@ -33,6 +33,30 @@ std::vector<int> FromTo(int from, int to) {
 }
 
 constexpr RadioRule kCut{.from_s = 1, .to_s = 2, .hearer = VehicleId{2}, .cut = true};
+
+TEST(RadioRules, ACutHasActedOnceABeaconWasCutOff) {
+  RadioRule rule = kCut;
+  rule.draws = 7;
+  RadioRules rules(std::array{rule}, kIds, 1, kTickPeriod);
+  rules.BeginTick(1.5);
+  EXPECT_TRUE(rules.IsCut(1, 2, false));
+  EXPECT_FALSE(rules.IsCut(2, 1, true));  // another hears it
+  EXPECT_FALSE(rules.HasActed(7));
+  EXPECT_TRUE(rules.IsCut(1, 2, true));
+  EXPECT_TRUE(rules.HasActed(7));
+  EXPECT_FALSE(rules.HasActed(8));
+}
+
+TEST(RadioRules, ADelayHasActedOnABeaconThatWasSentMeanwhile) {
+  const RadioRule rule{
+      .from_s = 1, .to_s = 2, .hearer = VehicleId{2}, .delay = 2 * kTickPeriod, .draws = 7};
+  RadioRules rules(std::array{rule}, kIds, 1, kTickPeriod);
+  rules.BeginTick(1.0);
+  EXPECT_EQ(rules.Of(1, 2, 5, 15).late_ticks, 0U);
+  EXPECT_FALSE(rules.HasActed(7));
+  EXPECT_EQ(rules.Of(1, 2, 0, 20).late_ticks, 2U);
+  EXPECT_TRUE(rules.HasActed(7));
+}
 
 TEST(RadioRules, AOneWayCutIsOfOneEarAndOneMouth) {
   RadioRule rule = kCut;

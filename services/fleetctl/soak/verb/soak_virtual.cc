@@ -78,6 +78,7 @@ class VirtualSoak {
     near_.Fold(news.truths);
     near_by_block_.Note(Time_s(), near_.Count() - near_before);
     for (const VehicleStatus& status : news.statuses) timing_.Fold(status, Time_s());
+    NoteEffects();
     CarryOut(clock_.TakeDue(Time_s()));
     course_.NoteModes(watch_, Now(), &seen_);
     if (Time_s() >= clock_.LastEnd_s()) course_.SeekHealing(watch_, Now(), &seen_);
@@ -119,20 +120,42 @@ class VirtualSoak {
     return news;
   }
 
-  // The world reports the start of its faults by an event.
   void CarryOut(std::span<const FaultEdge> edges) {
     for (const FaultEdge& edge : edges) {
       const faults::Fault& fault = schedule_[edge.fault];
       SetAway(fault, edge.begins);
       if (!edge.begins) {
+        // Vehicles out of each other's reach exchange no beacons for it to meet.
+        if (faults::ActorOf(fault.kind) == faults::Actor::kHearer)
+          watch_.NoteMetNothing(edge.fault);
         watch_.NoteEnd(edge.fault, Now());
         continue;
       }
       watch_.NoteBegin(edge.fault, Now());
-      if (faults::ActorOf(fault.kind) != faults::Actor::kWorld) {
-        watch_.NoteEffect(edge.fault, "carried out by the virtual fleet");
+    }
+  }
+
+  // The world reports its own faults.
+  void NoteEffects() {
+    for (const std::size_t i : watch_.Open()) {
+      if (!watch_.Courses()[i].effect.empty()) continue;
+      const faults::Fault& fault = schedule_[i];
+      const faults::Actor actor = faults::ActorOf(fault.kind);
+      if (actor == faults::Actor::kHearer && fleet_.HasMetBeacons(fault)) {
+        watch_.NoteEffect(i, "beacons met it");
+      } else if (actor == faults::Actor::kSupervisor && HasStoppedSome(fault)) {
+        watch_.NoteEffect(i, "the process missed a tick");
       }
     }
+  }
+
+  bool HasStoppedSome(const faults::Fault& fault) const {
+    for (std::size_t i = 0; i < fleet_.Size(); ++i) {
+      const bool meant = fault.target.what == Target::What::kAll ||
+                         fault.target.vehicle == scenario_.vehicles[i].id;
+      if (meant && !fleet_.Answered(i)) return true;
+    }
+    return false;
   }
 
   void SetAway(const faults::Fault& fault, bool begins) {

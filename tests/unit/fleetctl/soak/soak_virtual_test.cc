@@ -61,7 +61,7 @@ TEST_F(SoakVirtualTest, NeverFailsWithoutSayingWhy) {
 }
 
 TEST_F(SoakVirtualTest, CarriesOutItsListAndJudgesIt) {
-  schedule_ = {Planned(faults::Kind::kPause, 20, 0.8, 2), Planned(faults::Kind::kLoss, 25, 10, 3),
+  schedule_ = {Planned(faults::Kind::kPause, 20, 0.8, 2), Planned(faults::Kind::kLoss, 25, 10, 1),
                Planned(faults::Kind::kRestart, 30, 2, 4),
                Planned(faults::Kind::kSonarOff, 40, 5, 5)};
   const SoakResult result = Soak();
@@ -76,6 +76,19 @@ TEST_F(SoakVirtualTest, CarriesOutItsListAndJudgesIt) {
   for (const SoakHistogram& histogram : result.histograms) names.push_back(histogram.name);
   EXPECT_THAT(names, Contains("healing"));
   EXPECT_THAT(names, Contains("beacon_age"));
+}
+
+// Everything that was injected into processes and radio counted as seen.
+TEST_F(SoakVirtualTest, AFaultThatMeetsNoBeaconIsNotSeenAndFailsNothing) {
+  schedule_ = {Planned(faults::Kind::kOneWayCut, 25, 10, 3), Planned(faults::Kind::kLoss, 30, 2, 4),
+               Planned(faults::Kind::kRestart, 29, 8, 4)};
+  schedule_[0].parameters.from = VehicleId{3};  // which does not hear itself
+  const SoakResult result = Soak();
+  ASSERT_EQ(result.faults.size(), 3U);
+  EXPECT_FALSE(result.faults[0].observed);
+  EXPECT_FALSE(result.faults[1].observed);
+  EXPECT_TRUE(result.faults[2].observed);
+  EXPECT_EQ(result.verdict, SoakVerdict::kPassed) << ToJson(result);
 }
 
 TEST_F(SoakVirtualTest, ItsBlocksOfTimeHoldAllThereWas) {
