@@ -1,6 +1,7 @@
 #include "services/faults/unsupported.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <set>
 #include <utility>
@@ -10,6 +11,9 @@
 namespace giveway::faults {
 
 namespace {
+
+constexpr std::array kNeedPoseFixes = {Kind::kEncoderWrong, Kind::kPoseFixLost,
+                                       Kind::kPoseFixWrong};
 
 // Null: it can be carried out.
 const std::string* WhyNot(const Fault& fault, const Incapable& incapable) {
@@ -59,10 +63,19 @@ Incapable IncapableWithSensorsOf(const Scenario& scenario) {
     return {};
   }
   Incapable incapable;
-  for (const Kind kind : {Kind::kEncoderWrong, Kind::kPoseFixLost, Kind::kPoseFixWrong}) {
+  for (const Kind kind : kNeedPoseFixes) {
     incapable.kinds[kind] = "no vehicle of this scenario has pose fixes (sensors.pose_fix)";
   }
   return incapable;
+}
+
+std::string WhyTargetLacks(const Fault& fault, const Scenario& scenario) {
+  const bool needs_fixes = std::ranges::find(kNeedPoseFixes, fault.kind) != kNeedPoseFixes.end();
+  if (!needs_fixes || fault.target.what != Target::What::kVehicle) return {};
+  const auto named =
+      std::ranges::find(scenario.vehicles, fault.target.vehicle, &VehicleOptions::id);
+  if (named == scenario.vehicles.end() || named->profile.pose_fix.Fitted()) return {};
+  return "vehicle " + std::to_string(Number(named->id)) + " has no pose fixes (sensors.pose_fix)";
 }
 
 Incapable IncapableInVirtualTime() {

@@ -34,6 +34,10 @@ Schedule Without(const Schedule& schedule, const Incapable& incapable);
 // its encoders are wrong: where it believes to be would be wrong from then on.
 Incapable IncapableWithSensorsOf(const Scenario& scenario);
 
+// Why the vehicle that the fault names has not what it needs, where others do. Empty: it has, or
+// the fault names none of the scenario's vehicles.
+std::string WhyTargetLacks(const Fault& fault, const Scenario& scenario);
+
 // Of the virtual fleet: whatever the table says it cannot, and the world and servers as targets.
 Incapable IncapableInVirtualTime();
 

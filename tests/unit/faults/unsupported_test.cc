@@ -60,6 +60,21 @@ TEST(Unsupported, TheVirtualFleetHasTheFaultsOfItsWorldItsProcessesAndItsRadio) 
   EXPECT_FALSE(can(Kind::kFlooded, Vehicle(1)));
 }
 
+// The world reported them, and they counted as seen.
+TEST(Unsupported, OfAMixedFleetAVehicleWithoutPoseFixesHasNoneToLose) {
+  Scenario scenario;
+  scenario.vehicles.resize(2);
+  scenario.vehicles[0].id = VehicleId{1};
+  scenario.vehicles[1].id = VehicleId{2};
+  scenario.vehicles[1].profile.pose_fix = {.every_s = 1, .sigma_m = 0.05};
+  EXPECT_EQ(WhyTargetLacks(Of(Kind::kPoseFixLost, Vehicle(1), 1, 1), scenario),
+            "vehicle 1 has no pose fixes (sensors.pose_fix)");
+  EXPECT_EQ(WhyTargetLacks(Of(Kind::kPoseFixLost, Vehicle(2), 1, 1), scenario), "");
+  EXPECT_EQ(WhyTargetLacks(Of(Kind::kSonarOff, Vehicle(1), 1, 1), scenario), "");
+  EXPECT_EQ(WhyTargetLacks(Of(Kind::kPoseFixLost, kAllTarget, 1, 1), scenario), "");
+  EXPECT_EQ(WhyTargetLacks(Of(Kind::kPoseFixLost, Vehicle(9), 1, 1), scenario), "");
+}
+
 TEST(Unsupported, FaultsOfFixesAndEncodersNeedAVehicleWithPoseFixes) {
   Scenario scenario;
   scenario.spawns.resize(2);

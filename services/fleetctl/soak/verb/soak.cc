@@ -95,6 +95,10 @@ std::string WhyNot(const SoakOptions& options, const Scenario& scenario,
                    const std::string& why_no_attacker, const faults::Fault& fault) {
   const std::string sensors = WhyNotOf(faults::IncapableWithSensorsOf(scenario), fault);
   if (!sensors.empty()) return sensors;
+  if (std::string lacks = faults::WhyTargetLacks(fault, scenario); !lacks.empty()) return lacks;
+  if (fault.kind == faults::Kind::kDiskFull && !options.in_virtual_time && !Records(options)) {
+    return "the vehicles write no files without --record or --record-ring";
+  }
   return options.in_virtual_time ? WhyNotOf(faults::IncapableInVirtualTime(), fault)
                                  : WhyNot(fault, why_no_attacker, options.discovery_servers > 0);
 }
