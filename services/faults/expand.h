@@ -8,6 +8,7 @@
 // out never takes a fault out of another either.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -26,6 +27,13 @@ struct Course {
   double warm_up_s = 10;   // before it no random fault starts
   double healing_s = 15;   // at the end: every fault is over before it
 };
+
+// Of a soak. Discovery takes a few seconds, and longer with more vehicles; healing must cover the
+// vehicle that restarted last, and its slowest right of way.
+inline double WarmUpOfSoak_s(double duration_s, std::size_t vehicles) {
+  return std::min(duration_s / 4, 10 + 0.5 * static_cast<double>(vehicles));
+}
+inline double HealingOfSoak_s(double duration_s) { return std::min(duration_s / 4, 20.0); }
 
 // Why a file cannot be carried out with this fleet and course.
 struct Refusal {

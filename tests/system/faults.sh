@@ -24,8 +24,14 @@ grep -Eq '^[0-9.]+ s for [0-9.]+ s: vehicle [1-8]: loss probability=0.4  \[loss 
   fail "--json"
 "$FLEETCTL" faults list --json | jq -r '.[] | select(.virtual).kind' >virtual || fail "list --json"
 grep -qx sonar_off virtual || fail "in virtual time: $(<virtual)"
-"$FLEETCTL" faults expand everything --duration 20s --vehicles 4 >none 2>err || fail "20 s: exit code $?"
+"$FLEETCTL" faults expand everything --duration 20s --vehicles 4 --warm-up 10s --healing 15s >none 2>err || fail "20 s: exit code $?"
 grep -q 'leave no time in 20 s' err || fail "no word of a list without faults: $(cat err)"
+
+# The list is that of a soak.
+"$FLEETCTL" soak patrol --faults calm --vehicles 4 --seed 3 --duration 20m --virtual --report soak >/dev/null 2>&1 ||
+  fail "the soak: exit code $?"
+"$FLEETCTL" faults expand calm --vehicles 4 --seed 3 --duration 20m | grep '^at ' | cmp - <(grep '^at ' soak/faults.textproto) ||
+  fail "a soak has another list"
 
 for verb in faults 'faults expand' 'faults list'; do
   # shellcheck disable=SC2086  # two words

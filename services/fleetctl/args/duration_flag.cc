@@ -43,6 +43,12 @@ CLI::Option* AddDurationFlag(CLI::App* verb, const std::string& name, double* du
       verb, name, [duration_s](double value_s) { *duration_s = value_s; }, description, kDurations);
 }
 
+CLI::Option* AddDurationFlag(CLI::App* verb, const std::string& name,
+                             std::optional<double>* duration_s, const std::string& description) {
+  return AddFlag(
+      verb, name, [duration_s](double value_s) { *duration_s = value_s; }, description, kDurations);
+}
+
 CLI::Option* AddTimeFlag(CLI::App* verb, const std::string& name,
                          std::function<void(double)> take_s, const std::string& description) {
   return AddFlag(verb, name, std::move(take_s), description, kTimes);

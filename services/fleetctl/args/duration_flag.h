@@ -11,6 +11,8 @@ namespace giveway::fleetctl {
 // A flag that sets `duration_s`, 0 to 30 days, and leaves it unchanged if it is not given.
 CLI::Option* AddDurationFlag(CLI::App* verb, const std::string& name, double* duration_s,
                              const std::string& description);
+CLI::Option* AddDurationFlag(CLI::App* verb, const std::string& name,
+                             std::optional<double>* duration_s, const std::string& description);
 
 // The same for a time that must be above 0, up to 1 000 000 s.
 CLI::Option* AddTimeFlag(CLI::App* verb, const std::string& name,

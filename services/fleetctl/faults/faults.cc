@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "services/config/faults/faults_file.h"
+#include "services/faults/expand.h"
 #include "services/fleetctl/faults/faults_show.h"
 #include "services/fleetctl/output/output_file.h"
 #include "services/fleetctl/output/terminal_text.h"
@@ -27,13 +28,22 @@ void ReportNoTime(const faults::Course& course, const faults::Expansion& expansi
                course.warm_up_s, course.healing_s, course.duration_s);
 }
 
+faults::Course CourseOf(const FaultsOptions& options) {
+  return {.seed = options.seed,
+          .duration_s = options.duration_s,
+          .warm_up_s = options.warm_up_s.value_or(
+              faults::WarmUpOfSoak_s(options.duration_s, options.vehicles)),
+          .healing_s = options.healing_s.value_or(faults::HealingOfSoak_s(options.duration_s))};
+}
+
 }  // namespace
 
 int RunFaultsExpand(const FaultsOptions& options) {
   std::vector<VehicleId> vehicles;
   for (std::uint32_t id = 1; id <= options.vehicles; ++id) vehicles.push_back(VehicleId{id});
-  const faults::Expansion expansion = LoadAndExpandFaults(options.file, options.course, vehicles);
-  ReportNoTime(options.course, expansion);
+  const faults::Course course = CourseOf(options);
+  const faults::Expansion expansion = LoadAndExpandFaults(options.file, course, vehicles);
+  ReportNoTime(course, expansion);
   if (options.json) return Print(ExpansionJson(expansion));
   return Print(options.text ? FoldedForTerminal(ExpansionText(expansion))
                             : ExpansionFile(expansion));

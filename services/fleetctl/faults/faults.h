@@ -3,15 +3,17 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
-
-#include "services/faults/expand.h"
 
 namespace giveway::fleetctl {
 
 struct FaultsOptions {
   std::string file;
-  faults::Course course;
+  std::uint32_t seed = 1;
+  double duration_s = 0;
+  std::optional<double> warm_up_s;  // absent, here and below: that of a soak
+  std::optional<double> healing_s;
   std::uint32_t vehicles = 2;
   bool text = false;
   bool json = false;

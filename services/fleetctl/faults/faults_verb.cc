@@ -13,9 +13,8 @@ namespace {
 constexpr const char* kExpandFooter = R"(
 Prints the concrete faults that FILE makes with this seed, duration and fleet: target, kind, time and
 duration. Real and virtual runs carry out this list. It is a fault file itself, of `at` rules only, which
-expands to itself. The vehicles have the ids 1 to N. The list of a soak of N vehicles is that of its --seed
-(1 without it), --warm-up 10 s and half a second a vehicle, --healing 20 s, each a quarter of its duration at
-most. FILE is a path, or the name of a shipped file:
+expands to itself. The vehicles have the ids 1 to N. It is the list of a soak of N vehicles, but for what that
+refuses or leaves out; --warm-up and --healing make another. FILE is a path, or the name of a shipped file:
 calm, radio_storm, flaky_hardware, everything; idl/faults.proto documents each field. Nothing is
 started.
 
@@ -51,21 +50,20 @@ void AddExpand(CLI::App* group, int* exit_code) {
   const auto options = std::make_shared<FaultsOptions>();
   CLI::App* verb = group->add_subcommand("expand", "The concrete faults that a fault file makes");
   verb->footer(kExpandFooter);
-  faults::Course& course = options->course;
   verb->add_option("FILE", options->file, "A fault file, or the name of a shipped one")->required();
-  verb->add_option("--seed", course.seed, "Of all that is drawn; a soak has 1 without --seed")
+  verb->add_option("--seed", options->seed, "Of all that is drawn")
       ->capture_default_str()
       ->check(CLI::Range(0U, std::numeric_limits<std::uint32_t>::max()));
-  AddDurationFlag(verb, "--duration", &course.duration_s, "Of the run, such as 90s, 30m, 8h, 2d")
+  AddDurationFlag(verb, "--duration", &options->duration_s, "Of the run, such as 90s, 30m, 8h, 2d")
       ->required();
   verb->add_option("--vehicles", options->vehicles, "Fleet size")
       ->required()
       ->check(CLI::Range(1U, kMostReckonedWith));
-  AddDurationFlag(verb, "--warm-up", &course.warm_up_s, "No random fault starts before it")
-      ->default_str("10s");
-  AddDurationFlag(verb, "--healing", &course.healing_s,
+  AddDurationFlag(verb, "--warm-up", &options->warm_up_s, "No random fault starts before it")
+      ->default_str("10s and 0.5s a vehicle, a quarter of --duration at most");
+  AddDurationFlag(verb, "--healing", &options->healing_s,
                   "All faults are over so long before the end")
-      ->default_str("15s");
+      ->default_str("20s, a quarter of --duration at most");
   auto* text = verb->add_flag("--text", options->text, "Print a line a fault, for people");
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else")
       ->excludes(text);

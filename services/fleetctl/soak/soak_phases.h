@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "services/faults/expand.h"
 #include "services/types/time.h"
 
 namespace giveway::fleetctl {
@@ -23,12 +24,9 @@ struct SoakPhases {
 // Every live vehicle drives again within this time after the last fault.
 inline constexpr double kHealWithin_s = 5;
 
-// Discovery takes a few seconds, and longer with more vehicles; healing must cover the vehicle that
-// restarted last, and its slowest right of way.
 inline SoakPhases PhasesOf(double duration_s, std::size_t vehicles) {
-  const double warm_up_s = std::min(duration_s / 4, 10 + 0.5 * static_cast<double>(vehicles));
-  const double heal_s = std::min(duration_s / 4, 20.0);
-  return {warm_up_s, duration_s - heal_s, duration_s};
+  return {faults::WarmUpOfSoak_s(duration_s, vehicles),
+          duration_s - faults::HealingOfSoak_s(duration_s), duration_s};
 }
 
 // Until a soak saves again what it has seen, after a save of that processor time: it holds every
