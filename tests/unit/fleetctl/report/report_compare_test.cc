@@ -52,7 +52,8 @@ SoakResult ClusteredSoak(std::uint64_t seed) {
   for (std::size_t block = 0; block < kSoakBlocks; ++block) {
     const bool burst = random.Uniform(0, 1) < 0.2;
     std::vector<double> values_ms(150, 50.0);
-    for (int i = 0; burst && i < 5 + random.Uniform(0, 30); ++i) values_ms[i] = 150;
+    const auto hit = static_cast<std::size_t>(5 + random.Uniform(0, 30));
+    for (std::size_t i = 0; burst && i < hit; ++i) values_ms[i] = 150;
     AddBlock(&age, values_ms);
     const double reactions = burst ? random.Uniform(0, 40) : 0;
     spent.Note(static_cast<double>(block) * result.block_s, static_cast<std::uint64_t>(reactions));
