@@ -71,12 +71,12 @@ bool Deafens(const Fault& a, const Fault& b) {
 }
 
 // The target hears nothing for as long as the other lasts, and until it has joined again: there is
-// nothing to lose, delay or cut.
+// nothing to lose, delay or cut. A loop that hangs leaves the threads that receive alone.
 bool IsWithin(const Fault& heard, const Fault& silence) {
   constexpr double kUntilHeard_s = 3;
   return ActorOf(heard.kind) == Actor::kHearer && Silences(silence.kind) &&
-         heard.target.what == Target::What::kVehicle && heard.at_s >= silence.at_s &&
-         heard.EndsAt_s() <= silence.EndsAt_s() + kUntilHeard_s;
+         silence.kind != Kind::kHang && heard.target.what == Target::What::kVehicle &&
+         heard.at_s >= silence.at_s && heard.EndsAt_s() <= silence.EndsAt_s() + kUntilHeard_s;
 }
 
 bool KindsExclude(const Fault& a, const Fault& b) {

@@ -98,13 +98,13 @@ class Expander {
     Refuse(rule, field, "there is no vehicle " + std::to_string(Number(id)) + ": " + Fleet(),
            "name one that is there, or more vehicles");
   }
-  // What the ranges of one rule cannot show.
   template <typename Rule>
   void RefuseFromItself(const Rule& rule, VehicleId target) {
     if (rule.parameters.from != target) return;
     Refuse(rule, "from", "vehicle " + std::to_string(Number(target)) + " does not hear itself",
            "name another vehicle than the target");
   }
+  // What the ranges of one rule cannot show.
   template <typename Rule>
   void CheckParameters(const Rule& rule, double longest_s) {
     if (rule.parameters.from) RefuseUnlessThere(rule, "from", *rule.parameters.from);
@@ -218,8 +218,7 @@ class Expander {
   }
 
   void RefuseBoth(const Drawn& a, const Drawn& b) {
-    ++excluding_;
-    if (expansion_.refused.size() >= kMostRefused) return;
+    if (++excluding_ > kMostRefused) return;
     const auto described = [](const Drawn& drawn) {
       return drawn.fault.rule + " (" + Line(drawn.fault) + ")" +
              (drawn.line > 0 ? " of line " + std::to_string(drawn.line) : "");

@@ -51,6 +51,18 @@ class SeenFleet : public testing::Test {
   }
 
   void Begin() { watch_ = std::make_unique<InvariantWatch>(scenario_); }
+  // The second vehicle is a newcomer of an open fleet.
+  void BeginOpen() {
+    scenario_.spawns.push_back(scenario_.vehicles[1]);
+    scenario_.vehicles.pop_back();
+    scenario_.expect.arrived.clear();
+    Begin();
+  }
+  link::Observed TwoIsAccepted() const {
+    link::Observed joined;
+    joined.roster.push_back({.vehicle = two_, .accepted = true, .epoch = kEpoch, .spawn = 1});
+    return joined;
+  }
   Car& Of(VehicleId id) { return cars_[Number(id) - 1]; }
   void Drive(VehicleId id, double speed_m_s) {
     const double wheel = speed_m_s / DriveGeometry{}.wheel_radius_m;

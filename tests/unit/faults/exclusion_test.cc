@@ -87,6 +87,7 @@ TEST(Exclusion, NothingIsLostByOneThatIsAwayMeanwhile) {
   EXPECT_FALSE(Exclude(restart, Of(Kind::kLoss, Vehicle(1), 31, 20)));
   EXPECT_FALSE(Exclude(restart, Of(Kind::kLoss, Vehicle(2), 31, 3)));
   EXPECT_FALSE(Exclude(restart, Of(Kind::kLoss, kAllTarget, 31, 3)));
+  EXPECT_FALSE(Exclude(Of(Kind::kHang, Vehicle(1), 30, 5), Of(Kind::kLoss, Vehicle(1), 31, 3)));
 }
 
 TEST(Exclusion, EndsCountAsWithin) {

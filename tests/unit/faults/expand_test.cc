@@ -88,6 +88,17 @@ TEST(Expand, OfVeryManyThatExcludeEachOtherTheFirstAreNamedAndTheRestCounted) {
   EXPECT_THAT(refused.back(), Field(&Refusal::message, HasSubstr("; and 1125 more pairs do")));
 }
 
+// Whatever else is refused, one pair at least is named.
+TEST(Expand, PairsAreNamedNextToManyOtherRefusals) {
+  FaultFile file;
+  for (int i = 0; i < 120; ++i) {
+    file.at.push_back(At("absent", Kind::kPause, Vehicle(9), 10.0 * i, 1));
+  }
+  file.at.push_back(At("a", Kind::kPause, Vehicle(1), 10, 5));
+  file.at.push_back(At("b", Kind::kPause, Vehicle(1), 12, 5));
+  EXPECT_THAT(RefusedOf(file).back(), Field(&Refusal::message, HasSubstr("exclude each other")));
+}
+
 TEST(Expand, NoVehicleIsCutFromItself) {
   FaultFile planned{.at = {At("cut", Kind::kOneWayCut, Vehicle(1), 1, 1)}};
   planned.at[0].parameters.from = VehicleId{1};

@@ -322,14 +322,10 @@ TEST_F(InvariantWatchTest, BeaconsNobodyShouldBelieveAreNotBelieved) {
 }
 
 TEST_F(InvariantWatchTest, AnOpenFleetsNewcomersAreJudgedFromTheirRosterEntryOn) {
-  scenario_.spawns.push_back(scenario_.vehicles[1]);
-  scenario_.vehicles.pop_back();
-  scenario_.expect.arrived.clear();
-  Begin();
+  BeginOpen();
   Of(two_).seen = Of(two_).heard = Of(two_).status_comes = false;
   Observe(20);
-  link::Observed joined;
-  joined.roster.push_back({.vehicle = two_, .accepted = true, .epoch = kEpoch, .spawn = 1});
+  const link::Observed joined = TwoIsAccepted();
   watch_->Fold(joined);
   watch_->Fold(joined);  // repeated answer
   Of(two_).seen = Of(two_).heard = Of(two_).status_comes = true;
@@ -350,12 +346,8 @@ TEST_F(InvariantWatchTest, AnOpenFleetsNewcomersAreJudgedFromTheirRosterEntryOn)
 }
 
 TEST_F(InvariantWatchTest, TheOthersAreJudgedAfterTheWorldHasForgottenOneThatLeft) {
-  scenario_.spawns.push_back(scenario_.vehicles[1]);
-  scenario_.vehicles.pop_back();
-  scenario_.expect.arrived.clear();
-  Begin();
-  link::Observed joined;
-  joined.roster.push_back({.vehicle = two_, .accepted = true, .epoch = kEpoch, .spawn = 1});
+  BeginOpen();
+  const link::Observed joined = TwoIsAccepted();
   watch_->Fold(joined);
   Observe({{.kind = EventKind::kJoined, .vehicle = two_}});
   Observe(20);
@@ -379,12 +371,8 @@ TEST_F(InvariantWatchTest, TheOthersAreJudgedAfterTheWorldHasForgottenOneThatLef
 }
 
 TEST_F(InvariantWatchTest, OneThatIsBackSoonAfterItWasTakenAwayIsJudged) {
-  scenario_.spawns.push_back(scenario_.vehicles[1]);
-  scenario_.vehicles.pop_back();
-  scenario_.expect.arrived.clear();
-  Begin();
-  link::Observed joined;
-  joined.roster.push_back({.vehicle = two_, .accepted = true, .epoch = kEpoch, .spawn = 1});
+  BeginOpen();
+  const link::Observed joined = TwoIsAccepted();
   watch_->Fold(joined);
   Observe({{.kind = EventKind::kJoined, .vehicle = two_}});
   Observe(20);
