@@ -118,12 +118,12 @@ AdminRequest Elsewhere(const Orders& orders) {
   return order;
 }
 
-// Without an admin reader the target takes no orders: that is as good as a refusal.
 void OrderElsewhere(const Orders& orders) {
   Intruder intruder(orders);
   intruder.LookRound();
   auto writer =
       intruder.Participant().MakeWriter<wire::Order>(link::VehiclePartition(orders.target));
+  intruder.AwaitReader(writer);
   AdminRequest order = Elsewhere(orders);
   intruder.Repeat(milliseconds(100), [&](std::uint32_t i) {
     order.number = std::uint64_t{1} << 62U | i;
@@ -137,6 +137,7 @@ void ReplayOrders(const Orders& orders) {
   const std::string partition = link::VehiclePartition(orders.target);
   auto heard = intruder.Participant().MakeReader<wire::Order>(partition);
   auto writer = intruder.Participant().MakeWriter<wire::Order>(partition);
+  intruder.AwaitReader(writer);
   std::vector<wire::Order> kept;
   std::puts("listens");
   std::fflush(stdout);
