@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "services/config/faults/faults_read.h"
 #include "services/config/impair.h"
 #include "services/config/place_read.h"
 #include "services/config/plan_read.h"
@@ -247,12 +248,14 @@ void ReadImpairment(const Section& root, const KnownIds& known, Impairment* impa
   }
 }
 
-void ReadPlans(const Section& root, Scenario* scenario) {
+void ReadPlans(const Section& root, ReadScenario* read) {
+  Scenario* const scenario = &read->scenario;
   const KnownIds known = IdsOf(*scenario);
   ReadImpairment(root, known, &scenario->impairment);
   for (const Section& fault : Elements(root, "fault", kMaxFaults)) {
     scenario->faults.push_back(ReadFault(fault, root, known));
   }
+  if (const auto faults = root.Child("faults")) read->faults = ReadFaultFile(*faults);
   if (const auto expect = root.RequiredChild("expect")) {
     scenario->expect = ReadExpectation(*expect, known, *scenario);
   }
@@ -266,7 +269,7 @@ ReadScenario ReadFrom(const Section& root, const ScenarioOverrides& overrides) {
   ReadMap(root, &read);
   ReadFleet(root, overrides, &read);
   ReadPlace(root, &read);
-  ReadPlans(root, &read.scenario);
+  ReadPlans(root, &read);
   return read;
 }
 

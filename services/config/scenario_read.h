@@ -2,16 +2,19 @@
 // only if there was none.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "services/config/scenario_overrides.h"
 #include "services/config/section.h"
+#include "services/faults/fault_file.h"
 #include "services/types/scenario.h"
 
 namespace giveway {
 
 struct ReadScenario {
   Scenario scenario;
+  std::optional<faults::FaultFile> faults;
   // Where scenario.vehicles[i] and so on were written.
   std::vector<Section> vehicles;
   std::vector<Section> spawns;

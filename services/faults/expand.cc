@@ -226,7 +226,7 @@ class Expander {
     expansion_.refused.push_back(
         {b.fault.rule, b.line, "",
          described(b) + " and " + described(a) + " exclude each other: they overlap on one target",
-         "move one of them, or leave it out"});
+         "move one of them, or leave it out", a.fault.rule});
   }
 
   void LeaveOutExcluded() {
@@ -260,6 +260,16 @@ class Expander {
 };
 
 }  // namespace
+
+Course CourseOfRun(const FaultFile& file, double duration_s, std::uint32_t seed) {
+  Course course{.seed = seed, .duration_s = duration_s};
+  if (!file.random.empty()) return course;
+  course.healing_s = 0;
+  for (const AtRule& rule : file.at) {
+    course.duration_s = std::max(course.duration_s, rule.time_s + rule.for_s);
+  }
+  return course;
+}
 
 Expansion Expand(const FaultFile& file, const Course& course, std::span<const VehicleId> vehicles) {
   return Expander(file, course, vehicles).Run();

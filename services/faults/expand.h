@@ -35,6 +35,10 @@ inline double WarmUpOfSoak_s(double duration_s, std::size_t vehicles) {
 }
 inline double HealingOfSoak_s(double duration_s) { return std::min(duration_s / 4, 20.0); }
 
+// Of a run without phases of its own. A list without anything random is taken unchanged, however
+// long the run: also the rest of a longer one.
+Course CourseOfRun(const FaultFile& file, double duration_s, std::uint32_t seed);
+
 // Why a file cannot be carried out with this fleet and course.
 struct Refusal {
   std::string rule;
@@ -42,6 +46,7 @@ struct Refusal {
   std::string field;    // such as "target"; empty: the rule as a whole
   std::string message;  // what is wrong
   std::string remedy;
+  std::string other = {};  // of two that exclude each other: the other's rule
 };
 
 // Faults of a random rule that were drawn and are not in the list.

@@ -18,6 +18,12 @@ std::string EditScenario(const std::string& path, const ScenarioEdit& edit) {
   if (edit.duration_s) scenario.set_duration_s(*edit.duration_s);
   if (edit.start_with) scenario.set_start_with(*edit.start_with);
   if (!edit.keep_impairment) scenario.clear_impair();
+  if (!edit.keep_faults) scenario.clear_faults();
+  for (const PlannedFault& kill : edit.kills) {
+    schema::Fault* written = scenario.add_fault();
+    written->set_kill(Number(kill.vehicle));
+    written->set_at_s(kill.at_s.value_or(0));
+  }
   std::string text;
   google::protobuf::TextFormat::PrintToString(scenario, &text);
   return text;

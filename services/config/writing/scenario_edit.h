@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "services/types/scenario.h"
 
 namespace giveway {
 
@@ -12,6 +15,8 @@ struct ScenarioEdit {
   std::optional<double> duration_s;
   std::optional<std::uint32_t> start_with;
   bool keep_impairment = true;
+  bool keep_faults = true;            // the list `faults`
+  std::vector<PlannedFault> kills{};  // in addition to the planned ones; with at_s
 };
 
 // Reads `path` as LoadScenario does. Throws InputError.

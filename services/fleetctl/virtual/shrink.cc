@@ -92,7 +92,7 @@ int RunShrink(const ShrinkOptions& options) {
                                : options.out_file;
   std::fputs(maker.Remark().c_str(), stderr);
   CheckWritable(file);
-  if (!options.made_by.fault_file.empty()) CheckWritable(FaultFileOf(file));
+  if (maker.HasFaults()) CheckWritable(FaultFileOf(file));
   VirtualCase failing = maker.Make(options.seed);
   WriteScenario(failing.scenario, "");  // throws now rather than after a minute's work
   const Interrupts interrupts(Silence::kComputes);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "services/config/faults/faults_file.h"
+#include "services/config/faults/fault_sources.h"
 #include "services/config/plan_read.h"
 #include "services/config/problem.h"
 #include "services/config/scenario_file.h"
@@ -98,37 +98,26 @@ faults::Schedule AskedFor(const faults::FaultFile& file) {
   return asked;
 }
 
-// A list without anything random is taken unchanged, however long the run: also the rest of a
-// longer one by `fleetctl shrink`.
-faults::Course CourseOf(const faults::FaultFile& file, const Scenario& scenario,
-                        std::uint32_t seed) {
-  faults::Course course{.seed = seed, .duration_s = scenario.duration_s};
-  if (!file.random.empty()) return course;
-  course.healing_s = 0;
-  for (const faults::AtRule& rule : file.at) {
-    course.duration_s = std::max(course.duration_s, rule.time_s + rule.for_s);
-  }
-  return course;
-}
-
 }  // namespace
 
 CaseMaker::CaseMaker(const CaseOptions& options) : options_(options) {
-  TakeFaults();
   generator_ = sim::FindGenerator(options.scenario);
   if (generator_ != nullptr) {
     name_ = generator_->name;
+    TakeFaults(std::nullopt);
     return;
   }
   ScenarioOverrides overrides;
   overrides.seed = 0;
   overrides.duration_s = options.duration_s;
   overrides.behaviour = options.behaviour;
-  loaded_ = LoadScenario(options.scenario, overrides);
+  ScenarioWithFaults loaded = LoadScenarioWithFaults(options.scenario, overrides);
+  loaded_ = std::move(loaded.scenario);
   if (IsEndless(*loaded_)) loaded_->duration_s = kEndless_s;
   name_ = loaded_->name;
   CheckVehicles();
   CheckFleet();
+  TakeFaults(loaded.faults);
 }
 
 void CaseMaker::CheckVehicles() const {
@@ -153,30 +142,32 @@ void CaseMaker::CheckFleet() const {
                      .remedy = "leave the flag out, or run a generator"}});
 }
 
-void CaseMaker::TakeFaults() {
-  if (options_.fault_file.empty()) return;
-  fault_file_ = LoadFaults(options_.fault_file);
-  const auto cannot =
-      faults::UnsupportedIn(AskedFor(*fault_file_), faults::IncapableInVirtualTime());
+void CaseMaker::TakeFaults(const std::optional<faults::FaultFile>& own) {
+  sources_ = LoadFaultSources(own, options_.fault_file);
+  const auto incapable = faults::IncapableInVirtualTime();
   std::vector<Problem> problems;
-  for (const faults::Unsupported& kind : cannot) {
-    const std::string word(faults::ToString(kind.kind));
-    problems.push_back({.file = fault_file_->name,
-                        .field = kind.rules.front(),
-                        .value = word,
-                        .message = kind.reason,
-                        .remedy = "leave it out, or add --skip-unsupported"});
-    left_out_ += fault_file_->name + ": " + word + " is left out: " + kind.reason + "\n";
+  for (const faults::FaultFile& file : sources_) {
+    for (const faults::Unsupported& kind : faults::UnsupportedIn(AskedFor(file), incapable)) {
+      const std::string word(faults::ToString(kind.kind));
+      problems.push_back({.file = file.name,
+                          .field = kind.rules.front(),
+                          .value = word,
+                          .message = kind.reason,
+                          .remedy = "leave it out, or add --skip-unsupported"});
+      left_out_ += file.name + ": " + word + " is left out: " + kind.reason + "\n";
+    }
   }
   if (!problems.empty() && !options_.skip_unsupported) throw InputError(std::move(problems));
+  rules_ = Together(sources_);
 }
 
 faults::Schedule CaseMaker::ScheduleOf(const Scenario& scenario, std::uint32_t seed) const {
-  if (!fault_file_) return {};
+  if (!HasFaults()) return {};
   std::vector<VehicleId> ids;
   for (const VehicleOptions& vehicle : scenario.vehicles) ids.push_back(vehicle.id);
-  const auto expansion = faults::Expand(*fault_file_, CourseOf(*fault_file_, scenario, seed), ids);
-  std::vector<Problem> problems = ProblemsOf(*fault_file_, expansion);
+  const auto course = faults::CourseOfRun(rules_, scenario.duration_s, seed);
+  const auto expansion = faults::Expand(rules_, course, ids);
+  std::vector<Problem> problems = ProblemsOf(sources_, expansion);
   if (!problems.empty()) throw InputError(std::move(problems));
   return faults::Without(expansion.schedule, faults::IncapableInVirtualTime());
 }

@@ -47,8 +47,8 @@ struct CaseOptions {
   WholeRange pauses;
   WholeRange restarts;
   std::vector<sim::ProcessFault> faults;  // in addition to drawn ones
-  std::string fault_file;                 // a file or a shipped one; empty: none
-  bool skip_unsupported = false;  // of the file's faults those that a virtual run cannot inject
+  std::string fault_file;         // a file or a shipped one, in addition to the scenario's own list
+  bool skip_unsupported = false;  // of both lists those that a virtual run cannot inject
   std::optional<std::uint32_t> radio_seed;  // absent: the seed
 };
 
@@ -60,14 +60,15 @@ struct VirtualCase {
 class CaseMaker {
  public:
   // Throws InputError if the scenario is neither a file nor a generator, or has too few places, or
-  // if the fault file is invalid, or asks for what a virtual run cannot inject.
+  // if a list of faults is invalid, or asks for what a virtual run cannot inject.
   explicit CaseMaker(const CaseOptions& options);
 
-  // Throws InputError if the fault file does not fit the vehicles that the seed drew.
+  // Throws InputError if a list of faults does not fit the vehicles that the seed drew.
   VirtualCase Make(std::uint32_t seed) const;
   const std::string& Name() const { return name_; }
-  // The fault schedule of each seed, from a fault file; nullopt without one.
+  // The fault schedule of a seed, of the scenario's own list and the fault file.
   faults::Schedule ScheduleOf(const Scenario& scenario, std::uint32_t seed) const;
+  bool HasFaults() const { return !sources_.empty(); }
   // True if the scenario states expectations: a file's does.
   bool HasExpectations() const { return loaded_.has_value(); }
   // A line about what of the scenario is left out; empty if nothing is.
@@ -76,15 +77,16 @@ class CaseMaker {
  private:
   void CheckVehicles() const;
   void CheckFleet() const;
-  void TakeFaults();
+  void TakeFaults(const std::optional<faults::FaultFile>& own);
   Scenario MakeScenario(std::uint32_t seed, Random* dice) const;
 
   CaseOptions options_;
   std::string name_;
   const sim::Generator* generator_ = nullptr;
   std::optional<Scenario> loaded_;  // with seed 0: as in the file
-  std::optional<faults::FaultFile> fault_file_;
-  std::string left_out_;  // what of it is left out, as text
+  std::vector<faults::FaultFile> sources_;
+  faults::FaultFile rules_;  // of all sources
+  std::string left_out_;     // what of them is left out, as text
 };
 
 }  // namespace giveway::fleetctl

@@ -243,9 +243,10 @@ void AddFaultFlags(CLI::App* verb, CaseOptions* made_by) {
       "crash, pause or restart of one vehicle: KIND:ID@AT+FOR, seconds, as in pause:3@12.5+0.4. "
       "FOR is 0.5 if left out; from 1 s on the world takes it for dead. May be repeated");
   verb->add_option("--faults", made_by->fault_file,
-                   "A fault file, or a shipped one: its faults by the seed, see fleetctl faults");
+                   "A fault file, or a shipped one: its faults by the seed, besides those of the "
+                   "scenario, see fleetctl faults");
   verb->add_flag("--skip-unsupported", made_by->skip_unsupported,
-                 "Leaves out of --faults what a virtual run cannot do, and says so");
+                 "Leaves out of faults what a virtual run cannot do, and says so");
 }
 
 }  // namespace

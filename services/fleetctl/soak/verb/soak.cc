@@ -11,7 +11,7 @@
 #include <set>
 #include <utility>
 
-#include "services/config/faults/faults_file.h"
+#include "services/config/faults/fault_sources.h"
 #include "services/config/impair.h"
 #include "services/config/problem.h"
 #include "services/config/scenario_file.h"
@@ -39,6 +39,7 @@
 #include "services/fleetctl/soak/soak_page.h"
 #include "services/fleetctl/soak/soak_session.h"
 #include "services/fleetctl/soak/soak_verdict.h"
+#include "services/fleetctl/soak/verb/soak_faults.h"
 #include "services/fleetctl/soak/verb/soak_origin.h"
 #include "services/fleetctl/soak/verb/soak_resume.h"
 #include "services/fleetctl/soak/verb/soak_virtual.h"
@@ -61,6 +62,7 @@ struct Prepared {
   std::string qos_file;
   Scenario scenario;
   std::vector<VehicleId> fleet;
+  SoakFaults faults;
   faults::Schedule schedule;
   std::vector<std::string> skipped;
   SoakPhases phases;
@@ -113,7 +115,8 @@ void Sift(const SoakOptions& options, const Scenario& scenario, Prepared* prepar
     if (options.skip_unsupported) {
       prepared->skipped.push_back(InWords(fault) + ": " + why);
     } else {
-      problems.push_back({options.faults, 0, fault.rule, std::string(faults::ToString(fault.kind)),
+      problems.push_back({FileOf(prepared->faults.sources, fault.rule), 0, fault.rule,
+                          std::string(faults::ToString(fault.kind)),
                           fmt::format("cannot be carried out here: {}", why),
                           "take the rule out, or give --skip-unsupported"});
     }
@@ -131,11 +134,11 @@ void RefuseUnsoundSets(const faults::Schedule& schedule) {
   for (const std::string& name : names) static_cast<void>(ReadSoundQos(ResolveQosFile(name)));
 }
 
-Scenario LoadAndCheck(const SoakOptions& options) {
-  const Scenario scenario =
-      LoadScenario(options.scenario, {options.seed, std::nullopt, std::nullopt});
-  RefuseVehiclesWithoutPlace(options.scenario, options.vehicles, scenario);
-  return scenario;
+ScenarioWithFaults LoadAndCheck(const SoakOptions& options) {
+  ScenarioWithFaults loaded =
+      LoadScenarioWithFaults(options.scenario, {options.seed, std::nullopt, std::nullopt});
+  RefuseVehiclesWithoutPlace(options.scenario, options.vehicles, loaded.scenario);
+  return loaded;
 }
 
 // `ending`: of the file names. A world reads its list at every start: not what others carry out.
@@ -153,7 +156,7 @@ void WriteLists(const fs::path& folder, const std::string& ending, Prepared* pre
 
 Prepared Prepare(const SoakOptions& options) {
   Prepared prepared;
-  const Scenario as_shipped = LoadAndCheck(options);
+  const auto [as_shipped, own_faults] = LoadAndCheck(options);
   const auto places = static_cast<std::uint32_t>(as_shipped.spawns.size());
   prepared.newcomers = options.vehicles.value_or(places);
   const std::size_t vehicles = as_shipped.vehicles.size() + prepared.newcomers;
@@ -164,7 +167,8 @@ Prepared Prepare(const SoakOptions& options) {
   const faults::Course course{options.seed, options.duration_s, prepared.phases.faults_from_s,
                               prepared.phases.end_s - prepared.phases.faults_until_s};
   prepared.fleet = SoakFleet(as_shipped, prepared.newcomers);
-  prepared.schedule = LoadAndExpandFaults(options.faults, course, prepared.fleet).schedule;
+  prepared.faults = FaultsOf(options, own_faults);
+  prepared.schedule = ExpandFaults(prepared.faults.sources, course, prepared.fleet).schedule;
   Sift(options, as_shipped, &prepared);
   RefuseUnsoundSets(prepared.schedule);
   ForgetSoak(options.report_folder);
@@ -177,8 +181,9 @@ Prepared Prepare(const SoakOptions& options) {
     CheckFolder((folder / "impair").string());
   }
   if (Records(options)) CheckFolder((folder / "recordings").string());
-  // All start together, so that all vehicles have the same fault clock.
-  ScenarioEdit edit{.duration_s = 0.0};
+  // All start together, so that all vehicles have the same fault clock. The scenario's own faults
+  // are in the concrete list.
+  ScenarioEdit edit{.duration_s = 0.0, .keep_faults = false};
   if (!as_shipped.spawns.empty()) edit.start_with = static_cast<std::uint32_t>(vehicles);
   prepared.scenario_file = (folder / "scenario.textproto").string();
   WriteFile(prepared.scenario_file, EditScenario(options.scenario, edit));
@@ -282,10 +287,12 @@ SoakResult BlankResult(const SoakOptions& options, const Prepared& prepared, std
       static_cast<std::uint32_t>(prepared.scenario.vehicles.size()) + prepared.newcomers;
   result.domain = domain;
   result.virtual_time = options.in_virtual_time;
-  result.faults_file = options.faults;
+  result.faults_file = prepared.faults.name;
   result.qos_set = prepared.qos_file;
   result.skipped_faults = prepared.skipped;
-  result.command = CommandLine(options);
+  SoakOptions repeated = options;
+  repeated.faults = prepared.faults.flag;
+  result.command = CommandLine(repeated);
   result.versions = VersionsOf(ProgramFolder(), options.in_virtual_time);
   return result;
 }
@@ -399,14 +406,15 @@ int Resume(const SoakOptions& asked) {
   Prepared prepared;
   prepared.scenario_file = options.scenario;
   prepared.qos_file = options.qos_file;
-  prepared.scenario = LoadAndCheck(options);
+  prepared.scenario = LoadAndCheck(options).scenario;
   const auto named = static_cast<std::uint32_t>(prepared.scenario.vehicles.size());
   prepared.newcomers = so_far.vehicles - std::min(so_far.vehicles, named);
   prepared.phases = PhasesOf(options.duration_s, so_far.vehicles);
   prepared.fleet = SoakFleet(prepared.scenario, prepared.newcomers);
   const faults::Course course{options.seed, so_far.planned_s, 0, 0};
+  prepared.faults = FaultsOf(options, std::nullopt);
   const faults::Schedule whole =
-      LoadAndExpandFaults(options.faults, course, prepared.fleet).schedule;
+      ExpandFaults(prepared.faults.sources, course, prepared.fleet).schedule;
   prepared.schedule = RestOf(whole, so_far.ran_s, prepared.phases.faults_from_s, &prepared.skipped);
   Sift(options, prepared.scenario, &prepared);
   const std::string rest = fmt::format("rest-{}", so_far.resumed_at_s.size() + 1);

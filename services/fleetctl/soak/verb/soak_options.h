@@ -8,10 +8,10 @@
 namespace giveway::fleetctl {
 
 struct SoakOptions {
-  std::string scenario;         // a file, or the name of a shipped scenario
-  std::string faults = "calm";  // a file, or the name of a shipped one
-  double duration_s = 300;      // from the start signal to the verdict
-  std::uint32_t seed = 1;       // of scenario and faults
+  std::string scenario;     // a file, or the name of a shipped scenario
+  std::string faults;       // a file, or the name of a shipped one; empty: see soak_faults.h
+  double duration_s = 300;  // from the start signal to the verdict
+  std::uint32_t seed = 1;   // of scenario and faults
   std::string report_folder;
   std::optional<std::uint32_t> vehicles;  // of an open fleet; absent: one a place
   std::optional<std::uint32_t> domain;    // absent: the first free one

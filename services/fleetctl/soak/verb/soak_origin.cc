@@ -21,10 +21,10 @@ std::string WithoutName(std::string_view library) {
 }  // namespace
 
 std::string CommandLine(const SoakOptions& options) {
-  std::string line =
-      fmt::format("fleetctl soak {} --faults {} --duration {} --seed {} --report {}",
-                  ShellWord(options.scenario), ShellWord(options.faults), options.duration_s,
-                  options.seed, ShellWord(options.report_folder));
+  std::string line = "fleetctl soak " + ShellWord(options.scenario);
+  if (!options.faults.empty()) line += " --faults " + ShellWord(options.faults);
+  line += fmt::format(" --duration {} --seed {} --report {}", options.duration_s, options.seed,
+                      ShellWord(options.report_folder));
   const auto add = [&line](const char* flag, const std::string& value) {
     if (!value.empty()) line += fmt::format(" {} {}", flag, ShellWord(value));
   };

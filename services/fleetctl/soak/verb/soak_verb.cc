@@ -38,11 +38,12 @@ the program that is built with the tests: --attacker build/release/bin/attacker.
 It needs root. Faults of discovery servers need --discovery-servers.
 
 A DURATION is seconds, or has a unit: 90, 90s, 30m, 12h, 7d. Faults are files or
-shipped sets: calm, radio_storm, flaky_hardware, everything. No random fault starts
-in the first 10 s and half a second a vehicle, and all are over 20 s before the
-end, each a quarter of the duration at most. To see the list before a soak, give
-`fleetctl faults expand` its seed and these times as --warm-up and --healing; in
-the report folder it is faults.textproto.
+shipped sets: calm, radio_storm, flaky_hardware, everything. Those of the scenario
+itself are carried out with them. No random fault starts in the first 10 s and half
+a second a vehicle, and all are over 20 s before the end, each a quarter of the
+duration at most. To see the list of a file before a soak, give `fleetctl faults
+expand` its seed and these times as --warm-up and --healing; in the report folder
+the whole list is faults.textproto.
 
 Examples
   fleetctl soak patrol --faults calm --duration 2m --report soak
@@ -61,9 +62,10 @@ void AddSoakFlags(CLI::App* verb, SoakOptions* options) {
   verb->add_option("SCENARIO", options->scenario,
                    "A scenario file, or the name of a shipped one (required, unless --resume or "
                    "--around)");
-  verb->add_option("--faults", options->faults, "A fault file, or the name of a shipped one")
+  verb->add_option("--faults", options->faults,
+                   "A fault file, or the name of a shipped one, besides the scenario's own")
       ->check(CheckNotEmpty)
-      ->capture_default_str();
+      ->default_str("calm where the scenario has none");
   AddDurationFlag(verb, "--duration", &options->duration_s,
                   "From the start signal to the verdict: 30s to 30d")
       ->default_str("5m");

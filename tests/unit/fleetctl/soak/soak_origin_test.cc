@@ -26,6 +26,13 @@ TEST(SoakOrigin, TheCommandLineHasAllThatDecidesTheSoak) {
             "--discovery-servers 2 --attacker bin/attacker --skip-unsupported --record-ring 60");
 }
 
+TEST(SoakOrigin, TheFaultsOfTheScenarioNeedNoFlag) {
+  SoakOptions options;
+  options.scenario = "mine";
+  options.report_folder = "here";
+  EXPECT_EQ(CommandLine(options), "fleetctl soak mine --duration 300 --seed 1 --report here");
+}
+
 TEST(SoakOrigin, NamesEachProgramThatRan) {
   const auto names = [](const SoakVersions& versions) {
     std::vector<std::string> all;
