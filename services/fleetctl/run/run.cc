@@ -1,16 +1,22 @@
 #include "services/fleetctl/run/run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "services/config/config_dir.h"
 #include "services/config/impair.h"
 #include "services/config/problem.h"
 #include "services/config/scenario_file.h"
+#include "services/config/writing/scenario_edit.h"
+#include "services/faults/schedule_text.h"
 #include "services/fleetctl/args/places.h"
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/output/live_screen.h"
@@ -21,6 +27,7 @@
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/process/run_key.h"
+#include "services/fleetctl/run/run_faults.h"
 #include "services/fleetctl/run/run_session.h"
 #include "services/report/report.h"
 #include "services/runtime/terminal_size.h"
@@ -67,18 +74,21 @@ class ScratchFolder {
   }
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
-  std::string File(const char* name) const { return path_ / name; }
+  std::string File(const std::string& name) const { return path_ / name; }
 
  private:
   std::filesystem::path path_;
 };
 
-// In lockstep the world waits for every command, and a vehicle answers only scans.
+Impairment ImpairmentOf(const RunOptions& options, const Scenario& scenario) {
+  return options.fleet.impair.empty() ? scenario.impairment
+                                      : ParseImpairment(options.fleet.impair).impairment;
+}
+
+// In lockstep the world waits for every command, and a vehicle answers only scans. Faults of what
+// is heard leave scans alone.
 void RefuseImpairedLockstep(const RunOptions& options, const Scenario& scenario) {
-  const Impairment impairment = options.fleet.impair.empty()
-                                    ? scenario.impairment
-                                    : ParseImpairment(options.fleet.impair).impairment;
-  if (!options.fleet.lockstep || impairment.rules.empty()) return;
+  if (!options.fleet.lockstep || ImpairmentOf(options, scenario).rules.empty()) return;
   throw InputError({{options.scenario, 0, "--lockstep", "",
                      "the world would wait for ever for the answer to a scan that is lost",
                      "leave --lockstep out, or give --impair none"}});
@@ -92,13 +102,48 @@ void RefuseRestartOfClosed(const RunOptions& options, const Scenario& scenario) 
                      "leave --restart out, or write spawn { ... } in the scenario"}});
 }
 
+// The ids that the vehicles have, or ask for: see FleetSpec::names_newcomers.
+std::vector<VehicleId> FleetOf(const RunOptions& options, const Scenario& scenario) {
+  std::vector<VehicleId> fleet;
+  for (const VehicleOptions& vehicle : scenario.vehicles) fleet.push_back(vehicle.id);
+  for (std::uint32_t id = 1; id <= NewcomerCount(options.fleet, scenario); ++id) {
+    fleet.push_back(VehicleId{id});
+  }
+  return fleet;
+}
+
+// Every process reads files that hold its share of the list, as in a soak.
+void CarryOut(const RunFaults& faults, const RunOptions& options, const ScratchFolder& scratch,
+              FleetSpec* spec) {
+  spec->scenario_file = scratch.File("scenario.textproto");
+  WriteFile(spec->scenario_file,
+            EditScenario(options.scenario, {.keep_faults = false, .kills = faults.kills}));
+  if (!faults.worlds.empty()) {
+    const std::string file = scratch.File("faults_of_world.textproto");
+    WriteFile(file, faults::AsTextproto(faults.worlds));
+    std::vector<std::string>& words = spec->extra_words[kTheWorld];
+    words.insert(words.end(), {"--faults", file});
+  }
+  if (!faults.heard.empty()) spec->options.impair.clear();  // it is part of what each is given
+  for (const auto& [vehicle, impairment] : faults.heard) {
+    const std::string file = scratch.File(fmt::format("vehicle-{}.impair", Number(vehicle)));
+    WriteFile(file, ImpairmentText(impairment) + "\n");
+    spec->extra_words[MemberOf(vehicle)] = {"--impair", "@" + file};
+  }
+}
+
 int StartAndWatch(const RunOptions& options) {
   const ScenarioOverrides overrides{options.fleet.seed, options.fleet.behaviour,
                                     options.fleet.duration_s};
-  const Scenario scenario = LoadScenario(options.scenario, overrides);
+  const auto [scenario, own_faults] = LoadScenarioWithFaults(options.scenario, overrides);
   RefuseVehiclesWithoutPlace(options.scenario, options.fleet.vehicles, scenario);
   RefuseImpairedLockstep(options, scenario);
   RefuseRestartOfClosed(options, scenario);
+  std::optional<RunFaults> faults;
+  if (own_faults) {
+    faults = FaultsOfRun(*own_faults, scenario, FleetOf(options, scenario),
+                         ImpairmentOf(options, scenario));
+  }
   const std::string qos_file = ResolveQosFile(options.qos_file);
   static_cast<void>(ReadSoundQos(qos_file, DeploymentOf(scenario)));
   for (const std::string& file : {options.picture_file, options.html_file}) {
@@ -108,7 +153,7 @@ int StartAndWatch(const RunOptions& options) {
   if (!options.fleet.record_folder.empty()) CheckFolder(options.fleet.record_folder);
 
   const DomainLock lock(options.domain);
-  const ScratchFolder scratch(options.restart);
+  const ScratchFolder scratch(options.restart || faults);
   const RunKey key(options.fleet.admin_key, lock.Domain());
   FleetSpec spec{.program_folder = ProgramFolder(),
                  .scenario_file = ResolveScenario(options.scenario),
@@ -116,9 +161,11 @@ int StartAndWatch(const RunOptions& options) {
                  .qos_file = qos_file,
                  .lock_fd = lock.Fd(),
                  .hands_on_lines = true,
-                 .names_newcomers = options.restart,  // a restarted newcomer keeps its identity
+                 // A restarted newcomer keeps its identity, and faults name theirs.
+                 .names_newcomers = options.restart || faults,
                  .options = options.fleet};
   if (options.restart) spec.extra_words[kTheWorld] = {"--checkpoint", scratch.File("checkpoint")};
+  if (faults) CarryOut(*faults, options, scratch, &spec);
   spec.options.admin_key = key.File();
   std::fprintf(stderr, "%s on domain %u\n", scenario.name.c_str(), lock.Domain());
   const auto started = std::filesystem::file_time_type::clock::now();
