@@ -61,9 +61,15 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario,
 
 int Run(const ServiceFlags& flags, const StopSignal& stop) {
   InitLog("world", flags.log_format, flags.log_level);
-  const Scenario scenario = LoadScenario(
+  const ScenarioWithFaults loaded = LoadScenarioWithFaults(
       flags.scenario,
       {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});
+  const Scenario& scenario = loaded.scenario;
+  // Each is for its own actor, and all must draw the same.
+  if (loaded.faults && flags.faults.empty()) {
+    LogWarning(
+        "the scenario's `faults` are left out: fleetctl run and fleetctl soak carry them out");
+  }
   const sim::FaultSchedule schedule = LoadSchedule(flags, scenario);
   const auto live = [&](const link::LinkOptions& options, const std::function<void()>& settled) {
     return Live(flags, scenario, schedule, options, stop, settled);

@@ -179,6 +179,15 @@ code=0
 [[ $code -eq 2 ]] || fail "unknown verb: exit code $code"
 grep -q "no verb 'rum'" "$SCRATCH/err" || fail "unknown verb: $(cat "$SCRATCH/err")"
 
+# Of its own faults a run takes what needs no supervisor of a soak.
+{
+  cat "$good"
+  echo 'faults { at { name: "stands" time_s: 0.5 kind: "pause" vehicle: 1 for_s: 0.1 } }'
+} >"$SCRATCH/pause.textproto"
+refused "a fault of a soak" 'pause\.textproto:15: stands = pause: .*use fleetctl soak' "$SCRATCH/pause.textproto"
+sed 's/"pause"/"paus"/' "$SCRATCH/pause.textproto" >"$SCRATCH/paus.textproto"
+refused "no kind of fault" 'paus\.textproto:15: faults\.at\[0\]\.kind = "paus"' "$SCRATCH/paus.textproto"
+
 # With --json the refusal is data, too.
 "$FLEETCTL" run no_such.textproto --json 2>/dev/null >"$SCRATCH/out" || true
 jq -e '.verdict == "not_run" and .reason == "bad_input"' "$SCRATCH/out" >/dev/null ||

@@ -32,6 +32,7 @@ case $scenario in
   deaf) expected='(.halted | length > 0) and .arrived == [1, 2]' ;;
   parked_nose_to_nose) expected='.arrived == [1, 2]' ;;
   convoy) expected='.halted == [] and .arrived == [1, 2, 3, 4]' ;;
+  flaky_crossing) expected='(.halted | length > 0) and .arrived == [1, 2] and .liveliness_lost > 0' ;;
   peer_dies) expected='.halted == [1] and .arrived == [1] and .liveliness_lost > 0' ;;
   *)
     echo "unknown scenario '$scenario'" >&2

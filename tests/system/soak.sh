@@ -35,6 +35,13 @@ refusals() {
   refused '30 s' patrol --faults calm --duration 5
   refused 'vehicles' intersection_yield --faults calm --duration 60 --vehicles 3
   refused 'has places for 8' patrol --faults calm --duration 60 --vehicles 9
+  {
+    cat "$REPOSITORY/config/scenarios/patrol.textproto"
+    echo 'faults { at { name: "a" time_s: 21 kind: "hang" vehicle: 1 for_s: 1 } }'
+  } >"$SCRATCH/own.textproto"
+  refused 'own.textproto too' "$SCRATCH/own.textproto" --faults "$SCRATCH/server.textproto" --duration 60
+  sed -i 's/name: "a"/name: "o"/' "$SCRATCH/own.textproto"
+  refused 'o stands in .*own.textproto' "$SCRATCH/own.textproto" --faults "$SCRATCH/twice.textproto" --duration 60
   refused 'SCENARIO' --faults calm --duration 60
   refused 'excludes' patrol --faults calm --virtual --record-ring 60
   refused 'not carried out in virtual time\|cannot be carried out' patrol --faults everything --virtual --duration 60

@@ -1,4 +1,4 @@
-// What a run carries out of its scenario's faults, by whom, and what it refuses.
+// What a run carries out of its scenario's faults, the actor of each, and what it refuses.
 #include "services/fleetctl/run/run_faults.h"
 
 #include <gmock/gmock.h>
