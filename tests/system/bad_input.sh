@@ -184,9 +184,9 @@ grep -q "no verb 'rum'" "$SCRATCH/err" || fail "unknown verb: $(cat "$SCRATCH/er
   cat "$good"
   echo 'faults { at { name: "stands" time_s: 0.5 kind: "pause" vehicle: 1 for_s: 0.1 } }'
 } >"$SCRATCH/pause.textproto"
-refused "a fault of a soak" 'pause\.textproto:15: stands = pause: .*use fleetctl soak' "$SCRATCH/pause.textproto"
+refused "a fault of a soak" 'pause\.textproto:14: stands = pause: .*use fleetctl soak' "$SCRATCH/pause.textproto"
 sed 's/"pause"/"paus"/' "$SCRATCH/pause.textproto" >"$SCRATCH/paus.textproto"
-refused "no kind of fault" 'paus\.textproto:15: faults\.at\[0\]\.kind = "paus"' "$SCRATCH/paus.textproto"
+refused "no kind of fault" 'paus\.textproto:14: faults\.at\[0\]\.kind = "paus"' "$SCRATCH/paus.textproto"
 
 # With --json the refusal is data, too.
 "$FLEETCTL" run no_such.textproto --json 2>/dev/null >"$SCRATCH/out" || true

@@ -35,12 +35,8 @@ refusals() {
   refused '30 s' patrol --faults calm --duration 5
   refused 'vehicles' intersection_yield --faults calm --duration 60 --vehicles 3
   refused 'has places for 8' patrol --faults calm --duration 60 --vehicles 9
-  {
-    cat "$REPOSITORY/config/scenarios/patrol.textproto"
-    echo 'faults { at { name: "a" time_s: 21 kind: "hang" vehicle: 1 for_s: 1 } }'
-  } >"$SCRATCH/own.textproto"
-  refused 'own.textproto too' "$SCRATCH/own.textproto" --faults "$SCRATCH/server.textproto" --duration 60
-  sed -i 's/name: "a"/name: "o"/' "$SCRATCH/own.textproto"
+  sed 's/name: "o"/name: "a"/' "$SCRATCH/own.textproto" >"$SCRATCH/alike.textproto"
+  refused 'alike.textproto too' "$SCRATCH/alike.textproto" --faults "$SCRATCH/server.textproto" --duration 60
   refused 'o stands in .*own.textproto' "$SCRATCH/own.textproto" --faults "$SCRATCH/twice.textproto" --duration 60
   refused 'SCENARIO' --faults calm --duration 60
   refused 'excludes' patrol --faults calm --virtual --record-ring 60
@@ -51,6 +47,26 @@ refusals() {
   code=0
   "$FLEETCTL" soak patrol --faults calm --duration 60 --report /proc/no >"$SCRATCH/out" 2>&1 || code=$?
   [[ $code -eq 2 ]] || fail "a folder that cannot be made: exit code $code"
+}
+
+# A scenario with faults of its own: soaked without --faults, by the line of the report, and with --faults.
+own_faults() {
+  local line
+  "$FLEETCTL" soak "$SCRATCH/own.textproto" --vehicles 2 --virtual --duration 60 --report "$SCRATCH/own" --json \
+    >"$SCRATCH/own.json" 2>/dev/null || fail "a soak of a scenario's own faults: exit code $?"
+  [[ $(grep -o 'name: "[^"]*"' "$SCRATCH/own/faults.textproto") == 'name: "o"' ]] ||
+    fail "the list is not the scenario's: $(<"$SCRATCH/own/faults.textproto")"
+  ! grep -q faults "$SCRATCH/own/scenario.textproto" || fail "the list stands in the scenario of the report, too"
+  line=$(jq -r .command "$SCRATCH/own.json")
+  [[ $line != *--faults* ]] || fail "the line asks for a fault file: $line"
+  mv "$SCRATCH/own" "$SCRATCH/own_first"
+  # shellcheck disable=SC2086  # the words of a line
+  "$FLEETCTL" ${line#fleetctl } >/dev/null 2>&1 || fail "the line of the report: exit code $?"
+  cmp "$SCRATCH/own/report.json" "$SCRATCH/own_first/report.json" || fail "the line makes another report"
+  "$FLEETCTL" soak "$SCRATCH/own.textproto" --faults "$SCRATCH/short.textproto" --vehicles 2 --virtual --duration 60 \
+    --report "$SCRATCH/own" >/dev/null 2>&1 || fail "both lists: exit code $?"
+  [[ $(grep -c '^at { name: "\(o\|stop\)"' "$SCRATCH/own/faults.textproto") -eq 2 ]] ||
+    fail "the list is not that of both: $(<"$SCRATCH/own/faults.textproto")"
 }
 
 # judged_soak NAME ARGUMENTS...: fleetctl soak ARGUMENTS, its report in $SCRATCH/NAME, its JSON and its log next to
@@ -289,6 +305,10 @@ in_background() {
 echo 'at { name: "stop" time_s: 14 kind: "pause" vehicle: 1 for_s: 10 }' >"$SCRATCH/long.textproto"
 # The pause is over when the vehicles are ordered to keep their rings.
 echo 'at { name: "stop" time_s: 11 kind: "pause" vehicle: 1 for_s: 1 }' >"$SCRATCH/short.textproto"
+{
+  cat "$REPOSITORY/config/scenarios/patrol.textproto"
+  echo 'faults { at { name: "o" time_s: 21 kind: "hang" vehicle: 1 for_s: 1 } }'
+} >"$SCRATCH/own.textproto"
 cat >"$SCRATCH/rest.textproto" <<'FAULTS'
 at { name: "held" time_s: 13 kind: "pause" vehicle: 2 for_s: 14 }
 at { name: "rest" time_s: 30 kind: "pause" vehicle: 1 for_s: 2 }
@@ -319,6 +339,7 @@ in_background whole
 in_background killed_and_intruded
 in_background kept_and_host
 refusals
+own_faults
 interrupted
 virtually
 accounted
