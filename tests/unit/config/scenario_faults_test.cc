@@ -57,24 +57,29 @@ TEST(ScenarioFaults, AreRefusedAsInAFaultFileAndWithEverythingElse) {
   const std::string text = Spoilt("cruise_m_s: 0.4", "cruise_m_s: 40") + R"(faults {
   at { name: "a" time_s: 1 kind: "restrat" vehicle: 1 for_s: 1 }
   random { name: "b" kind: "kill" mean_between_s: 90 for_s: 4 }
+  at { name: "c" time_s: 1 kind: "kill" vehicle: 0 }
 })";
   const auto problems = ProblemsOf(text);
   ASSERT_THAT(problems, ElementsAre(Is(6, "vehicle[0].cruise_m_s", "1"),
                                     Is(18, "faults.at[0].kind", "is no kind of fault"),
-                                    Is(19, "faults.random[0].for_s", "takes no time")));
+                                    Is(19, "faults.random[0].for_s", "takes no time"),
+                                    Is(20, "faults.at[1].vehicle", "between 1")));
   EXPECT_THAT(problems[1].remedy, HasSubstr("write restart,"));
   EXPECT_EQ(problems[1].value, "\"restrat\"");
 }
 
 TEST(ScenarioFaults, OfAVehicleThatIsNotThereAreRefusedWhenTheScenarioIsRead) {
-  const std::string absent = Spoilt("cruise_m_s: 0.4", "cruise_m_s: 40") +
-                             "faults {\n"
-                             "at { name: \"a\" time_s: 9 kind: \"kill\" vehicle: 7 }\n"
-                             "random { name: \"b\" kind: \"kill\" mean_between_s: 9 vehicle: 8 } }";
+  const std::string absent =
+      Spoilt("cruise_m_s: 0.4", "cruise_m_s: 40") +
+      "faults {\n"
+      "at { name: \"a\" time_s: 9 kind: \"kill\" vehicle: 7 }\n"
+      "random { name: \"b\" kind: \"kill\" mean_between_s: 9 vehicle: 8 } }\n"
+      "sonar { tier: typical noise: 2 }";
   const auto problems = ProblemsOf(absent);
-  ASSERT_THAT(problems, ElementsAre(Is(6, "vehicle[0].cruise_m_s", "1"),
-                                    Is(18, "a.vehicle", "there is no vehicle 7"),
-                                    Is(19, "b.vehicle", "there is no vehicle 8")));
+  ASSERT_THAT(
+      problems,
+      ElementsAre(Is(6, "vehicle[0].cruise_m_s", "1"), Is(18, "a.vehicle", "there is no vehicle 7"),
+                  Is(19, "b.vehicle", "there is no vehicle 8"), Is(20, "sonar.noise", "")));
   EXPECT_THAT(problems[1].file, HasSubstr("s.textproto"));
 }
 
