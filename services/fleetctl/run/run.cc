@@ -102,10 +102,13 @@ void RefuseRestartOfClosed(const RunOptions& options, const Scenario& scenario) 
                      "leave --restart out, or write spawn { ... } in the scenario"}});
 }
 
-// The ids that the vehicles have, or ask for: see FleetSpec::names_newcomers.
+// The vehicles that faults may meet: those of the scenario, or where it names none those that ask
+// for the ids 1, 2, 3 ..., see FleetSpec::names_newcomers. Next to named ones they would ask for
+// ids that are taken.
 std::vector<VehicleId> FleetOf(const RunOptions& options, const Scenario& scenario) {
   std::vector<VehicleId> fleet;
   for (const VehicleOptions& vehicle : scenario.vehicles) fleet.push_back(vehicle.id);
+  if (!fleet.empty()) return fleet;
   for (std::uint32_t id = 1; id <= NewcomerCount(options.fleet, scenario); ++id) {
     fleet.push_back(VehicleId{id});
   }
@@ -162,7 +165,7 @@ int StartAndWatch(const RunOptions& options) {
                  .lock_fd = lock.Fd(),
                  .hands_on_lines = true,
                  // A restarted newcomer keeps its identity, and faults name theirs.
-                 .names_newcomers = options.restart || faults,
+                 .names_newcomers = options.restart || (faults && scenario.vehicles.empty()),
                  .options = options.fleet};
   if (options.restart) spec.extra_words[kTheWorld] = {"--checkpoint", scratch.File("checkpoint")};
   if (faults) CarryOut(*faults, options, scratch, &spec);
