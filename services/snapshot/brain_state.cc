@@ -199,8 +199,9 @@ bool IsSound(const ObstacleGrid& grid) {
   const bool has_columns = std::all_of(
       rows.begin(), rows.end(), [](std::uint64_t row) { return row >> ObstacleGrid::kSide == 0; });
   const auto cells = StateFields::CellsOf(grid);
-  const bool has_cells = std::all_of(
-      cells.begin(), cells.end(), [](std::uint8_t cell) { return cell <= ObstacleGrid::kSurest; });
+  const bool has_cells = std::all_of(cells.begin(), cells.end(), [](std::uint8_t cell) {
+    return cell <= ObstacleGrid::kSurestStoodBefore;
+  });
   return is_in(at.x) && is_in(at.y) && has_columns && has_cells &&
          StateFields::UnsureOf(grid) >= 0 && StateFields::FadedOf(grid) >= 0;
 }

@@ -215,11 +215,13 @@ void ObstacleGrid::Clear(const HeardCone& heard, Vec2 apex, Vec2 axis) {
       const Vec2 to = OffsetOf(column, row, apex);
       const double squared_m2 = SquaredNorm(to);
       if (Dot(axis, to) <= 0 || squared_m2 > far_m * far_m) continue;
-      const double across_m = Cross(axis, to);
+      const std::uint8_t cell = cells_[row * kSide + column];
+      const double half_m = cell > kSurest ? kHalfCell_m : 0;
+      const double across_m = Magnitude(Cross(axis, to)) + half_m;
       const double off = across_m * across_m / (squared_m2 * rim);
       const double clear_m = kClear_m * (1 - kLessAtRim * off);
       if (off > 1 || squared_m2 > clear_m * clear_m) continue;
-      Put(column, row, LessBy(cells_[row * kSide + column], kLoss));
+      Put(column, row, LessBy(cell, kLoss));
     }
   }
 }
@@ -231,7 +233,8 @@ void ObstacleGrid::Gain(const HeardCone& heard, Vec2 apex, Vec2 axis,
   const double near_m = std::max(0.0, heard.range_m - arc_m);
   const double far_m = heard.range_m + arc_m;
   const double rim = heard.half_sine * heard.half_sine;
-  const std::uint8_t most = heard.moves ? kFirm - 1 : kSurest;
+  const std::uint8_t surest = heard.stood_before ? kSurestStoodBefore : kSurest;
+  const std::uint8_t most = heard.moves ? kFirm - 1 : surest;
   const CellSpan bounds = CellSpanOf(axis, heard.half_sine, near_m, far_m);
   for (int i = bounds.down; i <= bounds.up; ++i) {
     const std::uint32_t row = StepFrom(CellOf(apex.y), i);

@@ -120,6 +120,45 @@ TEST(ObstacleGrid, WhatMovesFadesHoweverOftenItIsHeard) {
   EXPECT_FALSE(Holds(grid, kThere));
 }
 
+// From corridor 211 with a mixed fleet: a vehicle stood before the end of a wall, turned on the
+// spot until the end was between two cones, took it for gone and drove into it. The middle of a
+// cell 0.1 m before a transducer.
+constexpr Vec2 kBefore = {0.25, 0.05};
+
+HeardCone Before(bool echo, bool stood_before) {
+  HeardCone heard = Ahead(echo, 0.14);
+  heard.apex_body = {0.15, 0.05};
+  heard.stood_before = stood_before;
+  return heard;
+}
+
+// From corridor 211 with a mixed fleet: a vehicle stood before the end of a wall, turned on the
+// spot until it was between two cones, took it for gone and drove into it.
+TEST(ObstacleGrid, WhatTheVehicleStandsBeforeIsNotGoneBetweenTwoCones) {
+  const auto held_after_turning = [](bool stood_before) {
+    constexpr double kTurned_rad = 0.1;
+    ObstacleGrid grid;
+    for (int i = 0; i < 5; ++i) grid.Hear(Before(true, stood_before), {});
+    grid.Move({0, 0}, kTurned_rad, 0);
+    const Vec2 there = Cos(kTurned_rad) * kBefore - Sin(kTurned_rad) * Left(kBefore);
+    EXPECT_TRUE(Holds(grid, there));
+    for (int i = 0; i < 10; ++i) grid.Hear(Before(false, false), {});
+    return Holds(grid, there);
+  };
+  EXPECT_TRUE(held_after_turning(true));
+  EXPECT_FALSE(held_after_turning(false)) << "or doors would fill with places that nothing is in";
+}
+
+TEST(ObstacleGrid, WhatTheVehicleStoodBeforeIsClearOnceOneConeHoldsAllOfItsCell) {
+  ObstacleGrid grid;
+  for (int i = 0; i < 5; ++i) grid.Hear(Before(true, true), {});
+  grid.Move({-0.3, 0}, 0, 0);
+  const Vec2 there = kBefore + Vec2{0.3, 0};
+  ASSERT_TRUE(Holds(grid, there));
+  for (int i = 0; i < 10; ++i) grid.Hear(Before(false, false), {});
+  EXPECT_FALSE(Holds(grid, there));
+}
+
 TEST(ObstacleGrid, APeerKnownByItsBeaconsIsNotEntered) {
   ObstacleGrid grid;
   const KnownBody peer = {.centre_body = {1.0, 0}, .radius_m = 0.4};
