@@ -8,6 +8,7 @@
 #include <fstream>
 #include <utility>
 
+#include "services/health/heap_in_use.h"
 #include "services/runtime/process.h"
 #include "services/types/decision.h"
 
@@ -227,6 +228,10 @@ std::string Text(const ProcessFigures& process) {
   metrics.Gauge("start_time_seconds", "When the process started, since 1970.", process.started_s);
   metrics.Counter("cpu_seconds", "Processor time used.", process.cpu_s);
   metrics.Gauge("resident_memory_bytes", "Resident memory.", process.resident_bytes);
+  if (process.heap_bytes) {
+    metrics.Gauge("heap_bytes", "Heap in use, as the allocator counts it.",
+                  static_cast<double>(*process.heap_bytes));
+  }
   return metrics.Text();
 }
 
@@ -251,6 +256,7 @@ ProcessFigures ReadProcessFigures() {
   return {.started_s = started_s,
           .cpu_s = SecondsOf(usage.ru_utime) + SecondsOf(usage.ru_stime),
           .resident_bytes = resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE)),
+          .heap_bytes = HeapInUse(),
           .log_lines_dropped = LogLinesDropped()};
 }
 

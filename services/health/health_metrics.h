@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "services/health/health.h"
@@ -14,7 +15,8 @@ struct ProcessFigures {
   double started_s = 0;  // since 1970, when this program image started
   double cpu_s = 0;
   double resident_bytes = 0;
-  std::uint64_t log_lines_dropped = 0;  // because stderr was not read
+  std::optional<std::uint64_t> heap_bytes;  // in use
+  std::uint64_t log_lines_dropped = 0;      // because stderr was not read
 };
 ProcessFigures ReadProcessFigures();
 

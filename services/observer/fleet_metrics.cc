@@ -137,6 +137,13 @@ void AddDriving(Families* to) {
   to->OfStatus("step_p99_seconds", "Processor time of the last 1000 decisions, 99th percentile.",
                MetricType::Gauge,
                [](const VehicleStatus& status) { return status.step_p99_us * kSecondsPerUs; });
+  to->Begin("giveway_vehicle_heap_bytes", "Heap in use, as its allocator counts it.",
+            MetricType::Gauge);
+  for (const auto& [id, heard] : to->View().Heard().Vehicles()) {
+    if (heard.status && heard.status->heap_bytes) {
+      to->Add({Families::Vehicle(id)}, static_cast<double>(*heard.status->heap_bytes));
+    }
+  }
   to->OfStatus("loop_max_seconds", "The longest time from ranges to command.", MetricType::Gauge,
                [](const VehicleStatus& status) { return status.loop_max_ms * kSecondsPerMs; });
 }

@@ -144,8 +144,9 @@ struct VehicleStatus {
   DriveFigures timing;  // of this process, in the run
   PacketCounters packets;
   RefusedSamples refused;
-  AccountSums departed;       // all writers that have left
-  ReportedAccounts accounts;  // of the writers that are there
+  AccountSums departed;                     // all writers that have left
+  ReportedAccounts accounts;                // of the writers that are there
+  std::optional<std::uint64_t> heap_bytes;  // in use, as its allocator counts it; above 0
 };
 
 }  // namespace giveway

@@ -134,7 +134,7 @@ void VehicleLoop::Turn(bool leaving) {
   log_.LogBlackouts(link_.BlackoutsSince());
   if (inputs.scan && on_first_scan_) std::exchange(on_first_scan_, nullptr)();
   if (!decision_changed && woke < next_status_) return;
-  health_.OnStatus(report_.Send(vehicle_, link_), vehicle_.State());
+  health_.OnStatus(report_.Send(vehicle_, link_, woke), vehicle_.State());
   next_status_ = woke + kStatusPeriod;
 }
 

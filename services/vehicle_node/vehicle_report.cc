@@ -137,10 +137,18 @@ VehicleStatus VehicleReport::Gather(const Vehicle& vehicle, const link::DriveLin
   status.refused = counters.refused;
   status.departed = ledger_.Departed();
   status.accounts = ledger_.NextRows();
+  status.heap_bytes = heap_bytes_;
   return status;
 }
 
-VehicleStatus VehicleReport::Send(const Vehicle& vehicle, link::DriveLink& link) {
+void VehicleReport::AskForHeap(SteadyTime now) {
+  if (now < next_heap_) return;
+  next_heap_ = now + kHeapEvery;
+  heap_bytes_ = heap_();
+}
+
+VehicleStatus VehicleReport::Send(const Vehicle& vehicle, link::DriveLink& link, SteadyTime now) {
+  AskForHeap(now);
   const VehicleStatus status = Gather(vehicle, link);
   link.SendStatus(status);
   return status;

@@ -1,12 +1,15 @@
 // What a vehicle reports of itself: gathers brain, link and timing into a VehicleStatus.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "services/accounting/beacon_ledger.h"
+#include "services/health/heap_in_use.h"
 #include "services/link/drive_link.h"
 #include "services/timing/drive_timing.h"
 #include "services/types/impairment.h"
@@ -31,7 +34,13 @@ std::string Describe(const link::VehicleLinkCounters& counters);
 
 class VehicleReport {
  public:
-  explicit VehicleReport(const VehicleOptions& options) : timing_(options) {}
+  // What its allocator has in use, in bytes.
+  using Heap = std::function<std::optional<std::uint64_t>()>;
+  // Asking costs by pieces of free memory, and a status may be due each tick.
+  static constexpr Nanoseconds kHeapEvery = std::chrono::seconds(1);
+
+  explicit VehicleReport(const VehicleOptions& options, Heap heap = HeapInUse)
+      : timing_(options), heap_(std::move(heap)) {}
 
   // `step` is the processor time of Vehicle::Step, `turn` the time from waking on a scan to the
   // command sent.
@@ -47,12 +56,13 @@ class VehicleReport {
   void Reseat(const VehicleOptions& options) { timing_.Reseat(options); }
   void NoteEvents(std::span<const QosEvent> events);
   // Sends it to the fleet, and gives back what it sent.
-  VehicleStatus Send(const Vehicle& vehicle, link::DriveLink& link);
+  VehicleStatus Send(const Vehicle& vehicle, link::DriveLink& link, SteadyTime now);
   void SendFinal(const Vehicle& vehicle, link::DriveLink& link);
 
  private:
   VehicleStatus Gather(const Vehicle& vehicle, const link::DriveLink& link);
   double StepP99Us();
+  void AskForHeap(SteadyTime now);
 
   DriveTiming timing_;
   BeaconLedger ledger_;
@@ -61,6 +71,9 @@ class VehicleReport {
   std::size_t next_ = 0;
   double longest_turn_ms_ = 0;
   std::optional<QosEvent> last_event_;
+  Heap heap_;
+  std::optional<std::uint64_t> heap_bytes_;  // when it was last asked for
+  SteadyTime next_heap_{0};
 };
 
 }  // namespace giveway

@@ -290,11 +290,14 @@ TEST(Convert, StatusComesBackWithEveryCounter) {
   for (std::uint32_t i = 0; i < ReportedAccounts::kMost; ++i) {
     sent.accounts.Add({VehicleId{170 + i}, 171 + i, 172, 173, 174, 175, 176, 177, 178 + i});
   }
+  sent.heap_bytes = 1ULL << 40U;
   const VehicleStatus back = RoundTrip(sent);
   EXPECT_EQ(back.packets, sent.packets);
   EXPECT_EQ(back.refused, sent.refused);
   EXPECT_EQ(back.departed, sent.departed);
   EXPECT_EQ(back.accounts, sent.accounts);
+  EXPECT_EQ(back.heap_bytes, sent.heap_bytes);
+  EXPECT_EQ(RoundTrip(VehicleStatus{}).heap_bytes, std::nullopt);
   EXPECT_EQ(back.vehicle, sent.vehicle);
   EXPECT_EQ(back.epoch, sent.epoch);
   EXPECT_EQ(back.tick, sent.tick);
@@ -331,7 +334,8 @@ TEST(Convert, StatusComesBackWithEveryCounter) {
   EXPECT_EQ(travels(back.impaired), travels(sent.impaired));
 }
 
-// As the release of before wrote and read them: without the counts of packets and refused samples.
+// As earlier writers wrote them and earlier readers read them: without the counts of packets and
+// refused samples, or without the heap alone.
 class StatusOfBefore : public ::testing::Test {
  protected:
   // Serialized by this release.
@@ -348,10 +352,14 @@ class StatusOfBefore : public ::testing::Test {
     status.packets.packets.fill(~std::uint64_t{0});
     status.refused = {1, 2, 3, 4, 5, 6};
     status.timing.figures[static_cast<std::size_t>(DriveFigure::kScanLatency)].count = 8;
-    status.accounts = {BeaconAccount{}, BeaconAccount{}};
+    status.accounts = {BeaconAccount{}, BeaconAccount{.lost = 9}};
+    status.heap_bytes = ~std::uint64_t{0};
     return status;
   }
-  static constexpr std::size_t kBytes = kBytesBefore<wire::StatusPubSubType>;
+  static constexpr std::size_t kBytes = kStatusBytesBeforePackets;
+  static std::size_t BytesBeforeHeap(std::size_t accounts) {
+    return kStatusBytesBeforeHeap + kAccountBytes * accounts;
+  }
 };
 
 TEST_F(StatusOfBefore, IsReadWithCountsOfZero) {
@@ -376,11 +384,26 @@ TEST_F(StatusOfBefore, IsTheStartOfOneOfToday) {
   EXPECT_NE(Bytes(Counted()).substr(kBytes - 4, 4), Bytes(plain).substr(kBytes - 4, 4));
 }
 
-TEST_F(StatusOfBefore, HasOneLengthAndNoOther) {
+TEST_F(StatusOfBefore, HasOneOfTwoLengthsAndNoOther) {
   const std::string bytes = Bytes(Counted());
   for (std::size_t length = 0; length < bytes.size(); ++length) {
-    EXPECT_EQ(Read(std::string_view(bytes).substr(0, length)).has_value(), length == kBytes)
+    EXPECT_EQ(Read(std::string_view(bytes).substr(0, length)).has_value(),
+              length == kBytes || length == BytesBeforeHeap(2))
         << length;
+  }
+}
+
+TEST_F(StatusOfBefore, IsReadWithItsAccountsAndAnUnknownHeap) {
+  VehicleStatus sent = Counted();
+  sent.accounts = {};
+  for (std::uint32_t n = 0; n <= ReportedAccounts::kMost; ++n) {
+    const std::string bytes = Bytes(sent);
+    EXPECT_EQ(Read(bytes)->heap_bytes, sent.heap_bytes);
+    const auto read = Read(std::string_view(bytes).substr(0, BytesBeforeHeap(n)));
+    ASSERT_TRUE(read) << n;
+    EXPECT_EQ(read->heap_bytes, std::nullopt);
+    EXPECT_EQ(read->accounts, sent.accounts);
+    sent.accounts.Add({VehicleId{170 + n}, 171, 172, 173, 174, 175, 176, 177, 178 + n});
   }
 }
 

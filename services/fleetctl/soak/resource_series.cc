@@ -32,6 +32,7 @@ double LeastLeak(ResourceKind kind) {
     case ResourceKind::kProcessors:
       return statistics::kLeastLeakProcessors;
     case ResourceKind::kPrivateBytes:
+    case ResourceKind::kHeapBytes:
     case ResourceKind::kResidentBytes:
     case ResourceKind::kSharedMemoryBytes:
       break;
@@ -89,7 +90,8 @@ ResourceSeries::Life& ResourceSeries::LifeOf(const std::string& process, double 
 }
 
 void ResourceSeries::Add(const std::string& process, double time_s,
-                         const ProcessResources& resources) {
+                         const ProcessResources& resources,
+                         std::optional<std::uint64_t> heap_bytes) {
   Life& life = LifeOf(process, time_s);
   const double since_s = time_s - life.last_s;
   const double cpu_s = resources.cpu_s - life.last_cpu_s;
@@ -102,6 +104,7 @@ void ResourceSeries::Add(const std::string& process, double time_s,
     life.series[static_cast<std::size_t>(kind)].Add(time_s, value);
   };
   add(ResourceKind::kPrivateBytes, static_cast<double>(resources.private_bytes));
+  if (heap_bytes) add(ResourceKind::kHeapBytes, static_cast<double>(*heap_bytes));
   add(ResourceKind::kResidentBytes, static_cast<double>(resources.resident_bytes));
   add(ResourceKind::kDescriptors, resources.descriptors);
   add(ResourceKind::kThreads, resources.threads);
@@ -128,7 +131,7 @@ std::vector<ResourceSlope> ResourceSeries::SlopesOf(const std::string& process,
     row.last = points.back().value;
     row.lasting = slope->spans_s >= kLeastLeakSpan_s && GrowsLikeALeak(kind, points);
     row.leak = row.lasting && statistics::IsLeak(*slope, LeastLeak(kind));
-    if (kind == ResourceKind::kPrivateBytes) {
+    if (kind == ResourceKind::kPrivateBytes || kind == ResourceKind::kHeapBytes) {
       row.curve = statistics::BlockMedians(points, kCurvePoints);
     }
     slopes.push_back(std::move(row));

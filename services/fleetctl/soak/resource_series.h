@@ -2,8 +2,9 @@
 // weeks: a life keeps kMostPoints samples of each resource, and averages neighbours whenever they
 // are full; of a life that has ended only the slopes are kept.
 //
-// Heap in use is not included: only the process itself can ask its allocator (mallinfo2). From
-// outside, only resident private memory is visible, which an allocator may keep after it is freed.
+// Heap in use is what a vehicle's status says of it: only the process itself can ask its allocator.
+// The world publishes no status; of it only private memory is judged, which is visible from
+// outside, and which an allocator may keep after it is freed.
 #pragma once
 
 #include <sys/types.h>
@@ -12,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,8 +52,9 @@ class ResourceSeries {
   explicit ResourceSeries(double warm_up_s) : warm_up_s_(warm_up_s) {}
 
   // Call at 1 Hz with the result of ReadResources, `time_s` since the start signal. The first call
-  // for a process starts its first life.
-  void Add(const std::string& process, double time_s, const ProcessResources& resources);
+  // for a process starts its first life. `heap_bytes` if the process has said so just now.
+  void Add(const std::string& process, double time_s, const ProcessResources& resources,
+           std::optional<std::uint64_t> heap_bytes = std::nullopt);
   // The bytes of the fleet in /dev/shm.
   void AddSharedMemory(double time_s, std::uint64_t bytes);
   // The process has ended: further samples under its name belong to another life.

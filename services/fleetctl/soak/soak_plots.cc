@@ -234,12 +234,13 @@ SoakPlot QuantilePlot(const SoakResult& result, HistogramUnit unit) {
               fmt::format("set ylabel '{}'\n", is_time ? "ms" : "m") + parts.Text()};
 }
 
-// The steepest first.
-SoakPlot MemoryPlot(const SoakResult& result) {
+// Of one kind of resource, the steepest first.
+SoakPlot GrowthPlot(const SoakResult& result, ResourceKind kind, const std::string& name,
+                    const std::string& title) {
   const TimeAxis axis = AxisOf(result);
   std::vector<const ResourceSlope*> shown;
   for (const ResourceSlope& row : result.slopes) {
-    if (!row.curve.empty()) shown.push_back(&row);
+    if (row.kind == kind && !row.curve.empty()) shown.push_back(&row);
   }
   std::ranges::stable_sort(shown, std::ranges::greater{},
                            [](const ResourceSlope* row) { return row->slope.per_hour; });
@@ -255,8 +256,8 @@ SoakPlot MemoryPlot(const SoakResult& result) {
                                   PlotLabel(shown[i]->process), shown[i]->life + 1));
   }
   if (parts.IsEmpty()) return {};
-  return {"memory", "Private memory, the steepest lives",
-          PlotSettings("memory", 520) +
+  return {name, title,
+          PlotSettings(name, 520) +
               fmt::format("set xlabel 'time, {}'\nset ylabel 'MiB'\n", axis.label) + parts.Text()};
 }
 
@@ -292,13 +293,16 @@ SoakPlot DetectionPlot(const SoakResult& result) {
 }  // namespace
 
 std::vector<SoakPlot> PlotsOf(const SoakResult& result) {
-  std::vector<SoakPlot> plots{FaultPlot(result),
-                              ModePlot(result),
-                              DetectionPlot(result),
-                              QuantilePlot(result, HistogramUnit::kNanoseconds),
-                              QuantilePlot(result, HistogramUnit::kMicrometres),
-                              MemoryPlot(result),
-                              NearMissPlot(result)};
+  std::vector<SoakPlot> plots{
+      FaultPlot(result),
+      ModePlot(result),
+      DetectionPlot(result),
+      QuantilePlot(result, HistogramUnit::kNanoseconds),
+      QuantilePlot(result, HistogramUnit::kMicrometres),
+      GrowthPlot(result, ResourceKind::kPrivateBytes, "memory",
+                 "Private memory, the steepest lives"),
+      GrowthPlot(result, ResourceKind::kHeapBytes, "heap", "Heap in use, the steepest lives"),
+      NearMissPlot(result)};
   std::erase_if(plots, [](const SoakPlot& plot) { return plot.name.empty(); });
   return plots;
 }

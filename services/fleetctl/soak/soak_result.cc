@@ -39,6 +39,8 @@ const char* ToString(ResourceKind kind) {
   switch (kind) {
     case ResourceKind::kPrivateBytes:
       return "private_bytes";
+    case ResourceKind::kHeapBytes:
+      return "heap_bytes";
     case ResourceKind::kResidentBytes:
       return "resident_bytes";
     case ResourceKind::kDescriptors:

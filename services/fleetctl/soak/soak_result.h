@@ -118,13 +118,14 @@ bool WithinBudgets(const SoakHistogram& measured);
 
 enum class ResourceKind : std::uint8_t {
   kPrivateBytes,
+  kHeapBytes,  // of a vehicle, by its own status
   kResidentBytes,
   kDescriptors,
   kThreads,
   kProcessors,  // processor time a second
   kSharedMemoryBytes,
 };
-inline constexpr std::size_t kResourceKinds = 6;
+inline constexpr std::size_t kResourceKinds = 7;
 // "private_bytes", and the inverse.
 const char* ToString(ResourceKind kind);
 std::optional<ResourceKind> ResourceKindOf(const std::string& word);
@@ -139,7 +140,7 @@ struct ResourceSlope {
   bool lasting = true;  // long enough to judge, and grew in each part: filling up does not count
   bool leak = false;
   std::vector<statistics::Sample>
-      curve;  // of private bytes: at most 60 points to draw; time of soak
+      curve;  // of private bytes and heap: at most 60 points to draw; time of soak
 };
 
 // One writer as one reader accounts for it, all their lives added up.

@@ -383,14 +383,14 @@ void SoakSession::Sample(SteadyTime now) {
   if (!watch_.HasStarted() || stopping_) return;
   const double time_s = watch_.TimeSeconds(now);
   std::vector<pid_t> living;
-  const auto sample = [&](MemberId member) {
+  const auto sample = [&](MemberId member, std::optional<std::uint64_t> heap_bytes) {
     const auto resources = processes_.ResourcesOf(member);
     if (!resources) return;
-    resources_.Add(ProcessName(member), time_s, *resources);
+    resources_.Add(ProcessName(member), time_s, *resources, heap_bytes);
     living.push_back(*processes_.PidOf(member));
   };
-  sample(kTheWorld);
-  for (const VehicleId vehicle : fleet_) sample(MemberOf(vehicle));
+  sample(kTheWorld, std::nullopt);
+  for (const VehicleId vehicle : fleet_) sample(MemberOf(vehicle), watch_.HeapOf(vehicle, now));
   if (++samples_ % kSharedMemoryEvery == 0) {
     resources_.AddSharedMemory(time_s, ReadSharedMemory(living));
   }

@@ -304,6 +304,12 @@ SteadyTime SoakWatch::StatusAt(VehicleId vehicle) const {
   return view != views_.end() ? view->second.status_at : SteadyTime{0};
 }
 
+std::optional<std::uint64_t> SoakWatch::HeapOf(VehicleId vehicle, SteadyTime now) const {
+  const VehicleStatus* const status = StatusOf(vehicle);
+  if (status == nullptr || now - StatusAt(vehicle) > kFresh) return std::nullopt;
+  return status->heap_bytes;
+}
+
 const Truth* SoakWatch::TruthOf(VehicleId vehicle) const {
   const auto view = views_.find(vehicle);
   return view != views_.end() && view->second.truth ? &*view->second.truth : nullptr;

@@ -68,6 +68,8 @@ class SoakWatch {
   const VehicleStatus* StatusOf(VehicleId vehicle) const;
   // When the newest was received; 0 before the first.
   SteadyTime StatusAt(VehicleId vehicle) const;
+  // By its newest status, while that is fresh.
+  std::optional<std::uint64_t> HeapOf(VehicleId vehicle, SteadyTime now) const;
   const Truth* TruthOf(VehicleId vehicle) const;
   std::uint64_t StatusesRefused() const { return refused_; }
 

@@ -326,6 +326,7 @@ wire::Status ToWire(const VehicleStatus& status) {
   for (const BeaconAccount& account : status.accounts.Rows()) {
     sent.accounts().push_back(ToWirePart(account));
   }
+  sent.heap_bytes(status.heap_bytes.value_or(0));
   return sent;
 }
 
@@ -354,6 +355,8 @@ bool FromWire(const wire::Status& sample, VehicleStatus& status) {
   status.packets = FromWirePart(sample.packets());
   status.refused = FromWirePart(sample.refused());
   status.impaired.metered = sample.impaired_metered();
+  status.heap_bytes.reset();
+  if (sample.heap_bytes() > 0) status.heap_bytes = sample.heap_bytes();
   return TakeTiming(sample, status.timing) && TakeAccounts(sample, status) &&
          TakeLastEvent(sample.last_qos_event(), status) &&
          FromWirePart(sample.decision(), status.decision);

@@ -345,12 +345,16 @@ class ForwardingTransport : public transport::ChainingTransport {
   }
 };
 
-// A sample of this many bytes, encapsulation header included, is one of an older writer: the
-// type has gained members at its end since. 0: it has not.
-template <typename Generated>
-inline constexpr std::uint32_t kBytesBefore = 0;
-template <>
-inline constexpr std::uint32_t kBytesBefore<wire::StatusPubSubType> = 888;
+// Whether a sample of this many bytes, encapsulation header included, is one of an older writer:
+// the type has gained members at its end since. `read` was read from those bytes and zeros.
+inline constexpr std::uint32_t kStatusBytesBeforePackets = 888;
+inline constexpr std::uint32_t kStatusBytesBeforeHeap = 1264;  // and those of its accounts
+inline constexpr std::uint32_t kAccountBytes = 9 * 4;
+inline bool IsOfOlderWriter(const wire::Status& read, std::uint32_t bytes) {
+  const auto accounts = static_cast<std::uint32_t>(read.accounts().size());
+  return bytes == kStatusBytesBeforePackets ||
+         bytes == kStatusBytesBeforeHeap + kAccountBytes * accounts;
+}
 
 // A generated type that is always deserialized. By default the library loans its network buffer for
 // types without strings: unchecked in length and byte order, and misaligned for doubles. The
@@ -360,18 +364,23 @@ class CheckedType final : public Generated {
  public:
   bool is_plain(GIVEWAY_IS_PLAIN_PARAMETERS) const override { return false; }
   bool deserialize(GIVEWAY_PAYLOAD payload, void* sample) override {
-    const rtps::SerializedPayload_t& came = PayloadOf(payload);
-    if (kBytesBefore<Generated> == 0 || came.length != kBytesBefore<Generated>) {
-      return Decode(payload, sample);
-    }
-    rtps::SerializedPayload_t whole(LargestSize(*this));
-    whole.length = whole.max_size;
-    std::fill_n(whole.data, whole.length, rtps::octet{0});
-    std::copy_n(came.data, came.length, whole.data);
-    return Decode(AsPassed(whole), sample);
+    return Decode(payload, sample) || DecodeOlder(PayloadOf(payload), sample);
   }
 
  private:
+  bool DecodeOlder(const rtps::SerializedPayload_t& came, void* sample) {
+    if constexpr (std::is_same_v<typename Generated::type, wire::Status>) {
+      rtps::SerializedPayload_t whole(LargestSize(*this));
+      if (came.length >= whole.max_size) return false;
+      whole.length = whole.max_size;
+      std::fill_n(whole.data, whole.length, rtps::octet{0});
+      std::copy_n(came.data, came.length, whole.data);
+      return Decode(AsPassed(whole), sample) &&
+             IsOfOlderWriter(*static_cast<wire::Status*>(sample), came.length);
+    } else {
+      return false;
+    }
+  }
   bool Decode(GIVEWAY_PAYLOAD payload, void* sample) {
     try {
       return Generated::deserialize(payload, sample) && IsWhole(*this, payload, sample);

@@ -255,6 +255,7 @@ void AddFields(const VehicleStatus& status, Json* to) {
   json["refused"] = RefusedCountsOf(status.refused);
   json["departed"] = DepartedOf(status.departed);
   json["accounts"] = JsonArray(status.accounts.Rows(), AccountOf);
+  json["heap_bytes"] = OrNull(status.heap_bytes);
 }
 
 void AddFields(const Truth& truth, Json* to) {

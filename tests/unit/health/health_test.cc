@@ -147,8 +147,8 @@ TEST(Health, MetricsHaveNamesUnitsAndHelp) {
   vehicle.pose_sigma_m = 0.5;
   vehicle.fixes_used = 9;
   vehicle.fixes_refused = 2;
-  const std::string text =
-      MetricsText(vehicle, {.started_s = 1000, .cpu_s = 0.5, .resident_bytes = 4096}, kNow);
+  const std::string text = MetricsText(
+      vehicle, {.started_s = 1000, .cpu_s = 0.5, .resident_bytes = 4096, .heap_bytes = 2048}, kNow);
   EXPECT_THAT(text,
               StartsWith("# HELP giveway_vehicle_info Always 1; the labels say what runs.\n"
                          "# TYPE giveway_vehicle_info gauge\n"
@@ -181,7 +181,8 @@ TEST(Health, MetricsHaveNamesUnitsAndHelp) {
                            "\ngiveway_vehicle_budget_spent_total 2\n",
                            "\nprocess_start_time_seconds 1000\n",
                            "\nprocess_cpu_seconds_total 0.5\n",
-                           "\nprocess_resident_memory_bytes 4096\n"}) {
+                           "\nprocess_resident_memory_bytes 4096\n",
+                           "\nprocess_heap_bytes 2048\n"}) {
     EXPECT_THAT(text, HasSubstr(line));
   }
 }
@@ -193,6 +194,7 @@ TEST(Health, ThereIsNoEchoAndNoAgeBeforeTheFirst) {
   const std::string none = MetricsText(vehicle, {}, kNow);
   EXPECT_EQ(none.find("nearest_echo"), std::string::npos);
   EXPECT_EQ(none.find("ranges_age"), std::string::npos);
+  EXPECT_EQ(none.find("process_heap_bytes"), std::string::npos);
   EXPECT_THAT(none, HasSubstr("\ngiveway_vehicle_ready 0\n"));
   vehicle.scanned = kNow - milliseconds(125);
   vehicle.status.nearest_echo_m = 1.5;

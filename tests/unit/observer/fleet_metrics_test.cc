@@ -8,6 +8,7 @@ namespace {
 
 using std::chrono::seconds;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 FleetView ViewOfSeven() {
   VehicleStatus status;
@@ -18,6 +19,7 @@ FleetView ViewOfSeven() {
   status.packets.packets[static_cast<std::size_t>(PacketDrop::kNone)] = 900;
   status.packets.packets[static_cast<std::size_t>(PacketDrop::kSequenceJump)] = 3;
   status.refused.strangers = 5;
+  status.heap_bytes = 7'000'000;
   FigureSummary& age = status.timing.figures[static_cast<std::size_t>(DriveFigure::kBeaconAge)];
   age.count = 2;
   age.newest[0] = 40'000;
@@ -33,6 +35,14 @@ TEST(FleetMetrics, EveryVehicleHasItsLabel) {
   EXPECT_THAT(text, HasSubstr("giveway_vehicle_mode{vehicle=\"7\",mode=\"sensor_only\"} 1"));
   EXPECT_THAT(text,
               HasSubstr("giveway_vehicle_beacons_rejected_total{vehicle=\"7\",reason=\"crc\"} 2"));
+}
+
+TEST(FleetMetrics, HaveTheHeapOfWhoSaysIt) {
+  FleetView view = ViewOfSeven();
+  view.Fold({.statuses = {{.vehicle = VehicleId{8}}}}, seconds(1));
+  const std::string text = FleetMetrics(view, {}, seconds(1));
+  EXPECT_THAT(text, HasSubstr("giveway_vehicle_heap_bytes{vehicle=\"7\"} 7000000"));
+  EXPECT_THAT(text, Not(HasSubstr("giveway_vehicle_heap_bytes{vehicle=\"8\"}")));
 }
 
 TEST(FleetMetrics, SayWhatThePacketFilterDroppedAndWhatSamplesWereRefused) {

@@ -96,6 +96,13 @@ TEST(ListenTopics, JsonNamesTopicAndFields) {
                               HasSubstr(R"("gives_way_to":3)"), Not(HasSubstr("blocked_by"))));
 }
 
+TEST(ListenTopics, AHeapThatAVehicleDoesNotSayIsLeftOut) {
+  link::Observed observed;
+  observed.statuses = {{.vehicle = VehicleId{1}}, {.vehicle = VehicleId{2}, .heap_bytes = 7}};
+  EXPECT_THAT(SampleLines(observed, {ListenTopic::kStatus, {}, true}, 0),
+              ElementsAre(Not(HasSubstr("heap_bytes")), HasSubstr(R"("heap_bytes":7)")));
+}
+
 TEST(ListenTopics, AnEventIsChosenByEitherOfItsTwo) {
   for (const std::uint32_t id : {1U, 2U}) {
     EXPECT_THAT(SampleLines(OneOfEach(), {ListenTopic::kEvent, {VehicleId{id}}, false}, 0),

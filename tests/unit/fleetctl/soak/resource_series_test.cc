@@ -68,6 +68,28 @@ TEST(ResourcesOverTime, NameWhoLeaksAndNobodyElse) {
   EXPECT_NEAR(cpu->last, 0.2, 1e-9);
 }
 
+// As of one that an allocator serves from pages it already has.
+TEST(ResourcesOverTime, AHeapThatGrowsInSteadyPrivateMemoryIsALeak) {
+  ResourceSeries series(kWarmUp_s);
+  for (std::uint32_t t = 0; t < 300; ++t) {
+    series.Add("vehicle-1", t, Using(0, 2e7), 8'000'000 + 1000 * t);
+    series.Add("vehicle-2", t, Using(0, 2e7), 8'000'000 + t % 3);
+  }
+  for (const ResourceSlope& row : series.Slopes()) {
+    EXPECT_EQ(row.leak, row.process == "vehicle-1" && row.kind == ResourceKind::kHeapBytes)
+        << row.process << ' ' << ToString(row.kind);
+    if (row.leak) EXPECT_NEAR(row.slope.per_hour, 3.6e6, 1e3);
+    EXPECT_EQ(row.curve.empty(),
+              row.kind != ResourceKind::kHeapBytes && row.kind != ResourceKind::kPrivateBytes);
+  }
+}
+
+TEST(ResourcesOverTime, AHeapThatIsNotKnownHasNoSlope) {
+  ResourceSeries series(0);
+  for (int t = 0; t < 100; ++t) series.Add("world", t, Using(0, 2e7));
+  EXPECT_EQ(Find(series.Slopes(), "world", 0, ResourceKind::kHeapBytes), nullptr);
+}
+
 TEST(ResourcesOverTime, WarmingUpIsNoGrowth) {
   ResourceSeries series(60);
   for (int t = 0; t < 100; ++t) series.Add("world", t, Using(t, 1e6 * std::min(t, 60)));

@@ -48,6 +48,18 @@ TEST(SoakReportJson, ComesBackAsItWas) {
   EXPECT_TRUE(read.result.slopes.back().leak);
 }
 
+TEST(SoakReportJson, NamesEachKindOfResource) {
+  SoakResult result = SampleSoak(1);
+  for (std::size_t i = 0; i < kResourceKinds; ++i) {
+    result.slopes[i].kind = static_cast<ResourceKind>(i);
+  }
+  const ReadSoak read = SoakFromJson(ToJson(result));
+  ASSERT_EQ(read.complaint, "");
+  for (std::size_t i = 0; i < kResourceKinds; ++i) {
+    EXPECT_EQ(read.result.slopes[i].kind, static_cast<ResourceKind>(i));
+  }
+}
+
 TEST(SoakReportJson, IsOneLineWithoutWordsJsonDoesNotHave) {
   SoakResult result = SampleSoak(1);
   result.pauses.share = std::nan("");

@@ -25,8 +25,8 @@ std::vector<std::string> Names(const std::vector<SoakPlot>& plots) {
 }
 
 TEST(SoakPage, HasAPictureOfEverythingThereIs) {
-  EXPECT_THAT(Names(PlotsOf(SampleSoak(1))),
-              ElementsAre("faults", "modes", "detection", "times", "memory", "near_misses"));
+  EXPECT_THAT(Names(PlotsOf(SampleSoak(1))), ElementsAre("faults", "modes", "detection", "times",
+                                                         "memory", "heap", "near_misses"));
   EXPECT_THAT(PlotsOf(SoakResult{}), IsEmpty());
 }
 

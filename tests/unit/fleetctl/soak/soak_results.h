@@ -108,6 +108,8 @@ inline SoakResult SampleSoak(std::uint64_t seed) {
   for (std::uint32_t vehicle = 1; vehicle <= kSampleVehicles; ++vehicle) {
     result.slopes.push_back(SampleSlope("vehicle-" + std::to_string(vehicle), &random, 0));
   }
+  result.slopes.push_back(SampleSlope("vehicle-1", &random, 0));
+  result.slopes.back().kind = ResourceKind::kHeapBytes;
   MarkLeaks(&result.slopes, 0);
   result.accounting = {{.writer = "vehicle 1",
                         .reader = "vehicle 2",

@@ -44,6 +44,18 @@ class SoakWatchTest : public testing::Test {
   SoakWatch watch_{{kOne, kTwo}, schedule_};
 };
 
+TEST_F(SoakWatchTest, HasTheHeapOfAFreshStatusThatSaysIt) {
+  EXPECT_EQ(watch_.HeapOf(kOne, seconds(1)), std::nullopt);
+  VehicleStatus status = Driving(kOne);
+  Publish(status, seconds(1));
+  EXPECT_EQ(watch_.HeapOf(kOne, seconds(1)), std::nullopt);
+  status.heap_bytes = 4096;
+  Publish(status, seconds(2));
+  EXPECT_EQ(watch_.HeapOf(kOne, seconds(3)), 4096);
+  EXPECT_EQ(watch_.HeapOf(kOne, seconds(3) + milliseconds(1)), std::nullopt);
+  EXPECT_EQ(watch_.HeapOf(kTwo, seconds(2)), std::nullopt);
+}
+
 TEST(SoakWatch, OneIsWellThatDrivesOrStandsAsTrafficHasIt) {
   VehicleStatus status = Driving(kOne);
   EXPECT_TRUE(IsWell(status));
