@@ -23,6 +23,8 @@ declare -A EXPECTED=(
   [deadline_ignored]=detection
   [fault_without_effect]=effect
 )
+# And a word that must be among those about it.
+declare -A WORD=([leak]=heap_bytes)
 ORDER=(none leak descriptor slow_loop priority_reversed deadline_ignored fault_without_effect
   stale_beacon_trusted)
 
@@ -85,6 +87,8 @@ for mutant in "${@:-${ORDER[@]}}"; do
     for wanted in ${EXPECTED[$mutant]}; do
       [[ $code -eq 1 && " $named " == *" $wanted "* ]] && found=true
     done
+    jq -e --arg word "${WORD[$mutant]:-}" 'any(.violations[]?.words; contains($word))' "$folder/report.json" >/dev/null ||
+      found=false
   fi
   if $found; then
     echo "ok      mutant $mutant: ${named:-nothing broken}"
