@@ -87,6 +87,17 @@ TEST(ChildProcess, EveryLineIsHandedOnOnceWhereThatIsAskedFor) {
   EXPECT_THAT(silent.TakeLines(), SizeIs(0));
 }
 
+TEST(ChildProcess, WhatIsNotReadWaitsInItsPipe) {
+  ChildProcess child(Shell("echo one; sleep 0.3; echo four; sleep 60"));
+  ASSERT_TRUE(WaitFor(&child, [&] { return child.Output().read == 4; }));
+  child.HearOutput(false);
+  EXPECT_TRUE(WaitFor(&child, [&] { return child.Output().unread == 5; }));
+  EXPECT_EQ(child.Output().read, 4U);
+  child.HearOutput(true);
+  EXPECT_TRUE(WaitFor(&child, [&] { return child.Output().read == 9; }));
+  EXPECT_EQ(child.Output().unread, 0U);
+}
+
 TEST(ChildProcess, OnlyTheLastTwentyLinesAreKept) {
   ChildProcess child(Shell("for i in $(seq 1 1000); do echo line $i; done"));
   ASSERT_TRUE(WaitForEnd(&child));

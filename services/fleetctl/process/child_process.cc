@@ -1,6 +1,7 @@
 #include "services/fleetctl/process/child_process.h"
 
 #include <fcntl.h>
+#include <sys/ioctl.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -184,12 +185,19 @@ void ChildProcess::AskToStop() {
   if (!std::exchange(asked_to_stop_, true)) Signal(SIGTERM);
 }
 
+OutputFlow ChildProcess::Output() const {
+  int unread = 0;
+  if (::ioctl(output_.Get(), FIONREAD, &unread) != 0) unread = 0;
+  return {bytes_read_, static_cast<std::uint64_t>(unread)};
+}
+
 void ChildProcess::ReadOutput() {
   std::array<char, 4096> buffer{};
   for (;;) {
     const ssize_t got = ::read(output_.Get(), buffer.data(), buffer.size());
     if (got <= 0) return;
     const auto size = static_cast<std::size_t>(got);
+    bytes_read_ += size;
     if (log_.is_open()) log_.write(buffer.data(), got).flush();
     KeepLines(buffer.data(), size);
   }

@@ -6,6 +6,7 @@
 #include <sys/types.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <fstream>
@@ -43,6 +44,14 @@ std::string Describe(ProcessEnd end);
 // The folder of the fleet's programs: that of this executable.
 std::filesystem::path ProgramFolder();
 
+// The output of a child, in bytes.
+struct OutputFlow {
+  std::uint64_t read = 0;    // by this process, so far
+  std::uint64_t unread = 0;  // in the pipe
+
+  friend bool operator==(const OutputFlow&, const OutputFlow&) = default;
+};
+
 struct ChildCommand {
   std::string name;                // for messages: "vehicle 2"
   std::vector<std::string> words;  // the program's path, then its arguments
@@ -76,6 +85,7 @@ class ChildProcess {
   bool IsRunning() const { return !end_.has_value(); }
   // While this is off, its output stays in the pipe, which fills up. An exit is still noticed.
   void HearOutput(bool hear) { hears_ = hear; }
+  OutputFlow Output() const;
   // Has no effect on a child that has ended: its id may belong to another process.
   void Signal(int signal_number);
   // SIGTERM, once: a second one would end a service before it has left gracefully.
@@ -98,6 +108,7 @@ class ChildProcess {
   std::ofstream log_;
   bool hands_on_lines_;
   bool hears_ = true;
+  std::uint64_t bytes_read_ = 0;
   bool asked_to_stop_ = false;
   std::optional<ProcessEnd> end_;
   std::string unfinished_line_;

@@ -92,6 +92,11 @@ void FleetProcesses::Kill(MemberId member) {
   Signal(member, SIGKILL);
 }
 
+OutputFlow FleetProcesses::OutputOf(MemberId member) const {
+  const Member& of = At(member);
+  return of.process ? of.process->Output() : OutputFlow{};
+}
+
 void FleetProcesses::HearLog(MemberId member, bool hear) {
   if (At(member).process) At(member).process->HearOutput(hear);
 }

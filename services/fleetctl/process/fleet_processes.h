@@ -49,6 +49,8 @@ class FleetProcesses {
   void Restart(MemberCommand command);
   // Whether the output of its process is read; on at the start.
   void HearLog(MemberId member, bool hear);
+  // Of its process, running or not; nothing before the first.
+  OutputFlow OutputOf(MemberId member) const;
   // SIGTERM, once per process, and SIGCONT for processes that were paused by Signal.
   void AskToStop(MemberId member);
   // The same, or SIGKILL, for all. Nothing more is started afterwards.

@@ -249,7 +249,7 @@ std::map<std::string, FaultEvidence> EvidenceOf(const SoakResult& result, double
       FaultEvidence& kind = evidence[summary.kind];
       ++kind.blocks;
       if (summary.late > 0) ++kind.late;
-      if (summary.observed < summary.planned) ++kind.without_effect;
+      if (summary.missing > 0) ++kind.without_effect;
       if (const auto noticed_s = MedianOf(summary.noticed_s)) kind.noticed_s.push_back(*noticed_s);
       if (const auto back_s = MedianOf(summary.recovered_s)) kind.recovered_s.push_back(*back_s);
     }
@@ -300,8 +300,8 @@ void CompareKind(const FaultSummary& was, const FaultEvidence& a, const FaultSum
   CompareShares(is.kind + ", noticed late", {was.late, was.noticed_s.size()},
                 {a.late, a.noticed_s.size()}, {is.late, is.noticed_s.size()},
                 {b.late, b.noticed_s.size()}, figures);
-  CompareShares(is.kind + ", without effect", {was.planned - was.observed, was.planned},
-                {a.without_effect, a.blocks}, {is.planned - is.observed, is.planned},
+  CompareShares(is.kind + ", without effect", {was.missing, was.planned},
+                {a.without_effect, a.blocks}, {is.missing, is.planned},
                 {b.without_effect, b.blocks}, figures);
 }
 

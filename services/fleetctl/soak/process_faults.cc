@@ -153,6 +153,7 @@ std::string ProcessFaults::EffectOf(const faults::Fault& fault) const {
 }
 
 std::string ProcessFaults::EffectAtEndOf(const faults::Fault& fault) const {
+  if (fault.kind == Kind::kLogReaderStops) return EffectOf(fault);  // of its last moment too
   const auto churn = churns_.find(&fault);
   if (churn == churns_.end() || churn->second.killed == 0) return {};
   return fmt::format("{} processes came and were killed", churn->second.killed);
@@ -172,14 +173,25 @@ std::string ProcessFaults::EffectOn(const faults::Fault& fault, MemberId member)
     case Kind::kDiskFull:
       return LimitOf(member, RLIMIT_FSIZE);
     case Kind::kLogReaderStops:
-      return "its log has no reader";
+      return unread_.EffectOf(fault, LogOf(member));
     case Kind::kDuplicateId:
-      return doubles_.contains(&fault) ? "a second process asks for its id" : "";
+      return claims_.EffectOf(fault);
     case Kind::kClockStep:
       return ReadingsMoved(member);
     default:
       return {};
   }
+}
+
+LogSeen ProcessFaults::LogOf(MemberId member) const {
+  return {processes_->PidOf(member), processes_->OutputOf(member)};
+}
+
+std::string ProcessFaults::WhyNothingMet(const faults::Fault& fault) const {
+  if (fault.kind == Kind::kDuplicateId) return claims_.WhyNothing(fault);
+  if (fault.kind != Kind::kLogReaderStops) return {};
+  const std::vector<MemberId> members = MembersOf(fault.target);
+  return members.size() == 1 ? unread_.WhyNothing(fault, LogOf(members.front())) : "";
 }
 
 std::string ProcessFaults::ReadingsMoved(MemberId member) const {
@@ -249,7 +261,8 @@ void ProcessFaults::Begin(const faults::Fault& fault) {
 
 void ProcessFaults::End(const faults::Fault& fault) {
   churns_.erase(&fault);
-  doubles_.erase(&fault);
+  claims_.End(fault, SteadyNow());
+  unread_.End(fault);
   orders_.End(fault);
   if (tools_.shm != nullptr) EndOfSharedMemory(fault);
   for (const MemberId member : MembersOf(fault.target)) EndOn(fault, member);
@@ -292,13 +305,14 @@ void ProcessFaults::BeginOn(const faults::Fault& fault, MemberId member) {
       break;
     case Kind::kLogReaderStops:
       processes_->HearLog(member, false);
+      unread_.Begin(fault, LogOf(member));
       break;
     case Kind::kClockStep:
       StepClock(member, with.offset_s.value_or(0));
       break;
     case Kind::kDuplicateId:
-      doubles_[&fault].push_back(
-          StartBeside(member, member.number, fmt::format("double of {}", NameOf(member))));
+      claims_.Begin(
+          fault, StartBeside(member, member.number, fmt::format("double of {}", NameOf(member))));
       break;
     default:
       break;
@@ -359,10 +373,13 @@ void ProcessFaults::Turn(SteadyTime now, double time_s) {
   }
   for (auto& [member, slow] : slow_) TurnSlow(member, now, &slow);
   for (auto& [fault, churn] : churns_) TurnChurn(now, &churn);
-  for (auto& [fault, doubles] : doubles_) {
-    for (const auto& process : doubles) process->Poll();
-  }
+  if (claims_.AreAwaited()) claims_.Turn(now, WorldAnswers());
   orders_.Turn(now);
+}
+
+bool ProcessFaults::WorldAnswers() const {
+  const auto world = processes_->PidOf(kTheWorld);
+  return world && !IsStopped(*world);
 }
 
 MemberCommand ProcessFaults::CommandNow(MemberId member) const {

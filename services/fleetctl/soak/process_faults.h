@@ -22,7 +22,9 @@
 #include "services/fleetctl/soak/host_faults/duty_cycle.h"
 #include "services/fleetctl/soak/host_faults/private_shm.h"
 #include "services/fleetctl/soak/host_faults/qos_orders.h"
+#include "services/fleetctl/soak/host_faults/second_claim.h"
 #include "services/fleetctl/soak/host_faults/steppable_clock.h"
+#include "services/fleetctl/soak/host_faults/unread_log.h"
 
 namespace giveway::fleetctl {
 
@@ -74,11 +76,13 @@ class ProcessFaults {
   bool IsAimedAt(const faults::Fault& fault, MemberId member) const;
   // How to start a member that has just ended: with the set of an active mismatch.
   MemberCommand CommandNow(MemberId member) const;
-  // The visible effect of an active fault: process stopped, gone, limited. Empty if none is
+  // The visible effect of a fault: process stopped, gone, limited, refused. Empty if none is
   // visible, or if it is visible elsewhere.
   std::string EffectOf(const faults::Fault& fault) const;
   // The same of a fault that is about to end, as far as only all of it shows.
   std::string EffectAtEndOf(const faults::Fault& fault) const;
+  // Of one that is about to end: why it had nothing to act on. Empty: it had, or that is not known.
+  std::string WhyNothingMet(const faults::Fault& fault) const;
   // The faults, by index in the schedule, that caused the member's planned end.
   std::vector<std::size_t> KillersOf(MemberId member, const faults::Schedule& schedule) const;
   // Killed permanently.
@@ -102,6 +106,8 @@ class ProcessFaults {
   };
 
   std::string EffectOn(const faults::Fault& fault, MemberId member) const;
+  LogSeen LogOf(MemberId member) const;
+  bool WorldAnswers() const;
   std::string ReadingsMoved(MemberId member) const;
   void BeginOfSharedMemory(const faults::Fault& fault);
   void EndOfSharedMemory(const faults::Fault& fault);
@@ -130,7 +136,8 @@ class ProcessFaults {
   std::map<MemberId, std::uint64_t> moved_before_;       // readings, before the clock's last step
   std::map<const faults::Fault*, Churn> churns_;
   QosOrders orders_;
-  std::map<const faults::Fault*, std::vector<std::unique_ptr<ChildProcess>>> doubles_;
+  SecondClaims claims_;
+  UnreadLogs unread_;
   std::uint32_t churned_ = 0;
   double time_s_ = 0;
 };

@@ -48,6 +48,8 @@ std::string FormatFaults(const SoakResult& result) {
       std::max<std::uint64_t>(result.faults_observed, static_cast<std::uint64_t>(observed)),
       std::max<std::uint64_t>(result.faults_counted, result.faults.size()),
       result.skipped_faults.size());
+  const auto idle = std::ranges::count_if(result.faults, HadNothingToActOn);
+  if (idle > 0) text += fmt::format(", {} had nothing to act on", idle);
   if (result.faults_counted > result.faults.size()) {
     text += fmt::format("; the first {} by kind:", result.faults.size());
   }
@@ -146,6 +148,7 @@ std::vector<FaultSummary> SummariesOf(const std::vector<SoakFault>& faults) {
     FaultSummary& summary = by_kind[fault.kind];
     ++summary.planned;
     if (fault.observed) ++summary.observed;
+    if (!fault.observed && !HadNothingToActOn(fault)) ++summary.missing;
     if (fault.noticed_after_s) summary.noticed_s.push_back(*fault.noticed_after_s);
     if (fault.recovered_after_s) summary.recovered_s.push_back(*fault.recovered_after_s);
     if (fault.noticed_after_s && fault.promised_s && *fault.noticed_after_s > *fault.promised_s) {

@@ -25,6 +25,7 @@ struct FaultSummary {
   std::string kind;
   std::size_t planned = 0;
   std::size_t observed = 0;
+  std::size_t missing = 0;        // without an effect, though there was something to act on
   std::size_t late = 0;           // noticed later than promised
   std::vector<double> noticed_s;  // ascending, those that were
   std::vector<double> recovered_s;

@@ -87,8 +87,12 @@ std::string EachFault(const SoakResult& result) {
     table.Cell(fault.for_s > 0 ? fmt::format("{:.1f} s", fault.for_s) : "-");
     table.Cell(fault.kind);
     table.Cell(fault.target);
-    table.Cell(fault.observed ? "yes: " + fault.observed_how : "NO: " + fault.observed_how,
-               fault.observed ? "text" : "text bad");
+    const bool missing = !fault.observed && !HadNothingToActOn(fault);
+    table.Cell((fault.observed ? "yes: "
+                : missing      ? "NO"
+                               : "no: ") +
+                   fault.observed_how,
+               missing ? "text bad" : "text");
     table.Cell(FormatSeconds(fault.noticed_after_s), late ? "bad" : "");
     table.Cell(FormatSeconds(fault.promised_s));
     table.Cell(FormatSeconds(fault.recovered_after_s));
@@ -145,8 +149,7 @@ std::string FaultSection(const SoakResult& result) {
     table.Row();
     table.Cell(summary.kind);
     table.Count(summary.planned);
-    table.Cell(fmt::format("{}", summary.observed),
-               summary.observed == summary.planned ? "good" : "bad");
+    table.Cell(fmt::format("{}", summary.observed), summary.missing == 0 ? "good" : "bad");
     table.Count(summary.noticed_s.size());
     table.Cell(FormatSeconds(MedianOf(summary.noticed_s)));
     table.Cell(FormatSeconds(GreatestOf(summary.noticed_s)));

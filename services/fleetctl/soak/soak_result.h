@@ -45,11 +45,12 @@ struct SoakFault {
   std::string rule;  // that planned it, and its index among the rule's faults, from 0
   std::uint32_t nth = 0;
   double at_s = 0;
-  double for_s = 0;          // 0: instantaneous
-  std::string kind;          // "pause"; see services/faults/fault.h
-  std::string target;        // "vehicle 3", "world"
-  bool observed = false;     // by its effect, not by the order given
-  std::string observed_how;  // "waitpid: signal 9"
+  double for_s = 0;       // 0: instantaneous
+  std::string kind;       // "pause"; see services/faults/fault.h
+  std::string target;     // "vehicle 3", "world"
+  bool observed = false;  // by its effect, not by the order given
+  // "waitpid: signal 9"; of one not observed, why it had nothing to act on; empty: it had
+  std::string observed_how;
   std::optional<double> observed_s;
   std::optional<double> noticed_after_s;  // by peers, from its start
   std::optional<double> promised_s;       // to be noticed within
@@ -113,6 +114,10 @@ struct SoakHistogram {
   std::vector<HistogramBudget> budgets;
   std::vector<BlockSummary> blocks;  // from the first on; empty: not kept by block
 };
+// It was not observed, and its effect is not missing.
+inline bool HadNothingToActOn(const SoakFault& fault) {
+  return !fault.observed && !fault.observed_how.empty();
+}
 // All budgets are kept, or nothing was measured.
 bool WithinBudgets(const SoakHistogram& measured);
 

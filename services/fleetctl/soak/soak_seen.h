@@ -25,8 +25,8 @@ struct FaultCourse {
   std::optional<SteadyTime> began;
   std::optional<SteadyTime> ended;  // or, for an instantaneous one, when it started
   std::string effect;               // the observed effect; empty: none yet
-  bool met_nothing = false;         // it was active, and there was nothing that it could act on
-  std::string failure;              // of the last attempt to inject or undo it; empty: none
+  std::string met_nothing;  // it was active, and why there was nothing to act on; empty: there was
+  std::string failure;      // of the last attempt to inject or undo it; empty: none
   // By the first peer, for each mechanism that reported it.
   std::array<std::optional<SteadyTime>, kMechanisms> noticed;
   std::optional<SteadyTime> recovered;  // after its end all that it affected recovered

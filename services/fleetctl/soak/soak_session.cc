@@ -290,6 +290,8 @@ void SoakSession::CarryOut(std::span<const FaultEdge> edges) {
       faults_.Begin(fault);
       attackers_.Begin(fault);
     } else {
+      const std::string nothing = faults_.WhyNothingMet(fault);
+      if (!nothing.empty()) watch_.NoteMetNothing(edge.fault, nothing);
       for (const std::string& done : {faults_.EffectAtEndOf(fault), attackers_.EffectOf(fault)}) {
         if (!done.empty()) watch_.NoteEffect(edge.fault, done);
       }

@@ -185,6 +185,7 @@ class SoakEvaluation {
                     .target = faults::ToString(fault.target),
                     .observed = !course.effect.empty(),
                     .observed_how = course.effect};
+    if (!entry.observed) entry.observed_how = course.met_nothing;
     // One that took effect and was not undone.
     if (entry.observed && !course.failure.empty()) entry.observed_how += "; " + course.failure;
     // Other faults may also make peers hear less of the target, but not each time: nothing is
@@ -210,7 +211,7 @@ class SoakEvaluation {
     const faults::Fault& fault = from_.schedule[number];
     const FaultCourse& course = from_.seen.courses[number];
     if (!course.began) return;
-    if (!entry.observed && !course.met_nothing) {
+    if (!entry.observed && course.met_nothing.empty()) {
       AddViolation(fault.at_s, fault.target.vehicle, "effect",
                    fmt::format("{} was ordered, and no effect of it was seen{}{}", NameOf(entry),
                                course.failure.empty() ? "" : ": ", course.failure));

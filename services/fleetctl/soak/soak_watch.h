@@ -40,9 +40,11 @@ class SoakWatch {
   void NoteEffect(std::size_t fault, std::string effect);
   // What was seen of it later, where any effect was. As the first, it settles an earlier failure.
   void AddToEffect(std::size_t fault, const std::string& more);
+  // There was nothing that it could act on, and why: no effect is missing then.
+  void NoteMetNothing(std::size_t fault, std::string why) {
+    courses_[fault].met_nothing = std::move(why);
+  }
   // An attempt to inject it, or to undo it, failed; the last one is kept.
-  // No effect is missing then.
-  void NoteMetNothing(std::size_t fault) { courses_[fault].met_nothing = true; }
   void NoteFailure(std::size_t fault, std::string why) { courses_[fault].failure = std::move(why); }
   // Nothing is expected of a process that is meant to be gone; a new one has to report everything
   // again.

@@ -127,7 +127,7 @@ class VirtualSoak {
       if (!edge.begins) {
         // Vehicles out of each other's reach exchange no beacons for it to meet.
         if (faults::ActorOf(fault.kind) == faults::Actor::kHearer)
-          watch_.NoteMetNothing(edge.fault);
+          watch_.NoteMetNothing(edge.fault, "it met no beacon");
         watch_.NoteEnd(edge.fault, Now());
         continue;
       }

@@ -185,8 +185,15 @@ TEST(ComparedSoaks, LaterDetectionAndRecoveryAreFoundByKind) {
 
 TEST(ComparedSoaks, FaultsThatNoLongerHaveAnEffectAreFound) {
   SoakResult after = SampleSoak(2);
-  for (SoakFault& fault : after.faults) fault.observed = fault.kind == "pause";
+  for (SoakFault& fault : after.faults) {
+    fault.observed = fault.kind == "pause";
+    if (!fault.observed) fault.observed_how.clear();
+  }
   EXPECT_THAT(Worse(SampleSoak(1), after), ElementsAre("kill, without effect"));
+  for (SoakFault& fault : after.faults) {
+    if (!fault.observed) fault.observed_how = "there was nothing to act on";
+  }
+  EXPECT_THAT(Worse(SampleSoak(1), after), IsEmpty());
 }
 
 void Violate(SoakResult* result, int times, double every_s) {

@@ -78,7 +78,9 @@ TEST(ResourcesOverTime, AHeapThatGrowsInSteadyPrivateMemoryIsALeak) {
   for (const ResourceSlope& row : series.Slopes()) {
     EXPECT_EQ(row.leak, row.process == "vehicle-1" && row.kind == ResourceKind::kHeapBytes)
         << row.process << ' ' << ToString(row.kind);
-    if (row.leak) EXPECT_NEAR(row.slope.per_hour, 3.6e6, 1e3);
+    if (row.leak) {
+      EXPECT_NEAR(row.slope.per_hour, 3.6e6, 1e3);
+    }
     EXPECT_EQ(row.curve.empty(),
               row.kind != ResourceKind::kHeapBytes && row.kind != ResourceKind::kPrivateBytes);
   }

@@ -39,6 +39,20 @@ TEST(SoakPage, WithoutPicturesItSaysSoAndHasItsTables) {
   EXPECT_THAT(ToHtml(SoakResult{}, {}), HasSubstr("not_run"));
 }
 
+TEST(SoakPage, AFaultThatHadNothingToActOnIsNotMissing) {
+  SoakResult result = SampleSoak(1);
+  EXPECT_THAT(SummaryOf(result)[1].text, Not(HasSubstr("nothing to act on")));
+  result.faults[0].observed = false;
+  result.faults[0].observed_how = "it logged nothing meanwhile";
+  EXPECT_THAT(SummaryOf(result)[1].text,
+              HasSubstr("23 of 24 seen by their effect, 0 skipped, 1 had nothing to act on"));
+  const std::string html = ToHtml(result, {});
+  EXPECT_THAT(html, AllOf(HasSubstr("no: it logged nothing"), Not(HasSubstr(">NO"))));
+  result.faults[0].observed_how.clear();
+  EXPECT_THAT(ToHtml(result, {}), HasSubstr(">NO<"));
+  EXPECT_THAT(SummaryOf(result)[1].text, Not(HasSubstr("nothing to act on")));
+}
+
 TEST(SoakPage, LeadsToThePagesOfItsBlackBox) {
   SoakResult result = SampleSoak(1);
   result.kept_rings = {{12, 3, 3, "recordings/black-box-1.html"},

@@ -67,6 +67,18 @@ TEST_F(SoakVerdictTest, FailsWhereAFaultHadNoEffect) {
   EXPECT_EQ(result.violations[0].fault, "die#0");
 }
 
+TEST_F(SoakVerdictTest, SaysWhyAFaultHadNothingToActOnAndDoesNotCountIt) {
+  seen_.courses[0].effect.clear();
+  seen_.courses[0].met_nothing = "it logged nothing meanwhile";
+  const SoakResult result = Judged();
+  EXPECT_EQ(result.verdict, SoakVerdict::kPassed);
+  EXPECT_FALSE(result.faults[0].observed);
+  EXPECT_EQ(result.faults_observed, 0U);
+  EXPECT_EQ(result.faults[0].observed_how, "it logged nothing meanwhile");
+  seen_.courses[0].effect = "its process ended";
+  EXPECT_EQ(Judged().faults[0].observed_how, "its process ended");
+}
+
 TEST_F(SoakVerdictTest, TellsWhyAFaultCouldNotBeInjectedOrUndone) {
   seen_.courses[0].failure = "the order ended with exit code 1: refused";
   EXPECT_EQ(Judged().faults[0].observed_how,
