@@ -75,12 +75,12 @@ TEST(ResourcesOverTime, AHeapThatGrowsInSteadyPrivateMemoryIsALeak) {
     series.Add("vehicle-1", t, Using(0, 2e7), 8'000'000 + 1000 * t);
     series.Add("vehicle-2", t, Using(0, 2e7), 8'000'000 + t % 3);
   }
-  for (const ResourceSlope& row : series.Slopes()) {
-    EXPECT_EQ(row.leak, row.process == "vehicle-1" && row.kind == ResourceKind::kHeapBytes)
-        << row.process << ' ' << ToString(row.kind);
-    if (row.leak) {
-      EXPECT_NEAR(row.slope.per_hour, 3.6e6, 1e3);
-    }
+  const std::vector<ResourceSlope> slopes = series.Slopes();
+  const ResourceSlope* leak = Find(slopes, "vehicle-1", 0, ResourceKind::kHeapBytes);
+  ASSERT_NE(leak, nullptr);
+  EXPECT_NEAR(leak->slope.per_hour, 3.6e6, 1e3);
+  for (const ResourceSlope& row : slopes) {
+    EXPECT_EQ(row.leak, &row == leak) << row.process << ' ' << ToString(row.kind);
     EXPECT_EQ(row.curve.empty(),
               row.kind != ResourceKind::kHeapBytes && row.kind != ResourceKind::kPrivateBytes);
   }
