@@ -87,7 +87,8 @@ for mutant in "${@:-${ORDER[@]}}"; do
     for wanted in ${EXPECTED[$mutant]}; do
       [[ $code -eq 1 && " $named " == *" $wanted "* ]] && found=true
     done
-    jq -e --arg word "${WORD[$mutant]:-}" 'any(.violations[]?.words; contains($word))' "$folder/report.json" >/dev/null ||
+    [[ -z ${WORD[$mutant]:-} ]] ||
+      jq -e --arg word "${WORD[$mutant]}" 'any(.violations[]?.words; contains($word))' "$folder/report.json" >/dev/null ||
       found=false
   fi
   if $found; then
