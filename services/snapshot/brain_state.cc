@@ -200,7 +200,7 @@ bool IsSound(const ObstacleGrid& grid) {
       rows.begin(), rows.end(), [](std::uint64_t row) { return row >> ObstacleGrid::kSide == 0; });
   const auto cells = StateFields::CellsOf(grid);
   const bool has_cells = std::all_of(cells.begin(), cells.end(), [](std::uint8_t cell) {
-    return cell <= ObstacleGrid::kSurestStoodBefore;
+    return cell <= ObstacleGrid::kSurestNear;
   });
   return is_in(at.x) && is_in(at.y) && has_columns && has_cells &&
          StateFields::UnsureOf(grid) >= 0 && StateFields::FadedOf(grid) >= 0;

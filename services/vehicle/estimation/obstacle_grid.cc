@@ -11,6 +11,11 @@ namespace {
 // An echo gains as much as one that is missed, and a drop-out or two, take away.
 constexpr std::uint8_t kGain = 4;
 constexpr std::uint8_t kLoss = 3;
+// So near, where it is heard twice before the vehicle has passed or turned, it is as sure as can
+// be.
+constexpr double kNear_m = 0.25;
+constexpr std::uint8_t kGainNear = 8;
+static_assert(2 * kGainNear > ObstacleGrid::kSurest);
 // Heard twice in one place it does not fade.
 constexpr std::uint8_t kFirm = 7;
 static_assert(kGain < kFirm && 2 * kGain >= kFirm);
@@ -233,8 +238,9 @@ void ObstacleGrid::Gain(const HeardCone& heard, Vec2 apex, Vec2 axis,
   const double near_m = std::max(0.0, heard.range_m - arc_m);
   const double far_m = heard.range_m + arc_m;
   const double rim = heard.half_sine * heard.half_sine;
-  const std::uint8_t surest = heard.stood_before ? kSurestStoodBefore : kSurest;
-  const std::uint8_t most = heard.moves ? kFirm - 1 : surest;
+  const bool near = heard.range_m <= kNear_m && !heard.moves;
+  const std::uint8_t most = heard.moves ? kFirm - 1 : (near ? kSurestNear : kSurest);
+  const std::uint8_t gain = near ? kGainNear : kGain;
   const CellSpan bounds = CellSpanOf(axis, heard.half_sine, near_m, far_m);
   for (int i = bounds.down; i <= bounds.up; ++i) {
     const std::uint32_t row = StepFrom(CellOf(apex.y), i);
@@ -250,7 +256,7 @@ void ObstacleGrid::Gain(const HeardCone& heard, Vec2 apex, Vec2 axis,
       const Vec2 forward = heading_.forward_world;
       if (IsKnown({Dot(forward, from_body), Cross(forward, from_body)}, known)) continue;
       const std::uint8_t cell = cells_[row * kSide + column];
-      const auto more = std::min(static_cast<std::uint8_t>(cell + kGain), most);
+      const auto more = std::min(static_cast<std::uint8_t>(cell + gain), most);
       Put(column, row, std::max(cell, more));
     }
   }

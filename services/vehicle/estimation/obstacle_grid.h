@@ -21,14 +21,13 @@ namespace giveway {
 // What one firing of one transducer says: where it was when it fired, in the body frame of now.
 struct HeardCone {
   Vec2 apex_body;
-  Vec2 axis_body;             // unit vector
-  double half_sine = 0;       // of half the opening
-  bool echo = false;          // false: it heard nothing
-  double range_m = 0;         // only of an echo
-  double unsure_m = 0;        // the range may be off by so much
-  bool enters = false;        // the echo is of something to be kept
-  bool moves = false;         // of something that moves: it is forgotten soon
-  bool stood_before = false;  // of what the vehicle stands before, near its shell
+  Vec2 axis_body;        // unit vector
+  double half_sine = 0;  // of half the opening
+  bool echo = false;     // false: it heard nothing
+  double range_m = 0;    // only of an echo
+  double unsure_m = 0;   // the range may be off by so much
+  bool enters = false;   // the echo is of something to be kept
+  bool moves = false;    // of something that moves: it is forgotten soon
 };
 
 // A disc that is known to be there and is no obstacle to be kept.
@@ -45,10 +44,10 @@ class ObstacleGrid {
   // Confidence of a cell: from 0, nothing heard, to kSurest; it counts from kHeld on.
   static constexpr std::uint8_t kSurest = 12;
   static constexpr std::uint8_t kHeld = 3;
-  // Up to here where the vehicle stands before it, and then it is hard to clear: by cones that hold
-  // all of the cell. Near the shell a cell is as wide as a cone, and an edge in it that the vehicle
-  // turns out of one cone is in the next one's blind corner, not gone.
-  static constexpr std::uint8_t kSurestStoodBefore = 15;
+  // Of what was heard near a transducer. There a cell is as wide as a cone: an edge that is turned
+  // out of one cone is between it and the next, not gone, though the middle of its cell is in one.
+  // So it is soon this sure, and then cleared by cones that hold all of the cell alone.
+  static constexpr std::uint8_t kSurestNear = 15;
 
   // The vehicle came `moved_body` on, in the frame it had before, and turned. `unsure_m2`: the
   // variance that this adds to where things are to it.

@@ -19,8 +19,6 @@ constexpr double kNearPeer_m = 3;
 constexpr double kNarrower_m = 0.03;
 // The middle of the body itself is surely not the place of anything else.
 constexpr double kShare = 0.8;
-// What it stands before is as near as where rule obstacle stops, and a little more.
-constexpr double kBefore_m = kStandOff_m + 0.1;
 
 double InnerRadius(const RobotModel& profile) {
   if (profile.shape == BodyShape::kDisc) return profile.body_radius_m;
@@ -66,8 +64,7 @@ HeardCone HeardBy(std::size_t sensor, bool explained, const OwnView& s) {
           .range_m = view.range_m,
           .unsure_m = kRangeSigmas * s.options.sonar_noise * view.range_m,
           .enters = !explained,
-          .moves = echo && !s.turns && MovesByItself(sensor, s),
-          .stood_before = s.speed_m_s < kStandingSpeed_m_s && view.range_m <= kBefore_m};
+          .moves = echo && !s.turns && MovesByItself(sensor, s)};
 }
 
 }  // namespace

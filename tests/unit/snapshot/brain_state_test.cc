@@ -216,9 +216,9 @@ TEST(BrainState, WhatNoScanCanHaveBroughtIsRefused) {
   }
   std::string surer = sound;
   ASSERT_EQ(surer.back(), static_cast<char>(ObstacleGrid::kSurest)) << "the last cell";
-  surer.back() = static_cast<char>(ObstacleGrid::kSurestStoodBefore);
+  surer.back() = static_cast<char>(ObstacleGrid::kSurestNear);
   EXPECT_NE(StateFrom(surer, options), nullptr);
-  surer.back() = static_cast<char>(ObstacleGrid::kSurestStoodBefore + 1);
+  surer.back() = static_cast<char>(ObstacleGrid::kSurestNear + 1);
   EXPECT_EQ(StateFrom(surer, options), nullptr);
 }
 

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "tests/support/brain_bench.h"
 #include "tests/support/crossing.h"
 
@@ -49,28 +47,6 @@ TEST(HeardPlaces, AreKeptByImperfectUltrasonicsAlone) {
   test::BrainBench yielding(lecture);
   HearThrice(&yielding);
   EXPECT_FALSE(yielding.Brain().State().sensed.grid.IsActive());
-}
-
-TEST(HeardPlaces, BeforeWhatItStandsItKnowsThatItDoes) {
-  const auto surest_at = [](double range_m, double rim_rad_s) {
-    test::BrainBench bench(Noisy());
-    for (int i = 0; i < 8; ++i) {
-      RangeScan scan = test::ClearScan(0);
-      scan.wheels = {rim_rad_s, rim_rad_s};
-      test::SetEcho(&scan, 3, range_m);
-      bench.Step(scan);
-    }
-    std::uint8_t surest = 0;
-    for (double x_m = 0.2; x_m < 0.8; x_m += 0.05) {
-      for (double y_m = 0; y_m < 0.2; y_m += 0.05) {
-        surest = std::max(surest, Confidence(bench, {x_m, y_m}));
-      }
-    }
-    return surest;
-  };
-  EXPECT_EQ(surest_at(0.2, 0), ObstacleGrid::kSurestStoodBefore);
-  EXPECT_EQ(surest_at(0.4, 0), ObstacleGrid::kSurest) << "it is further away";
-  EXPECT_LE(surest_at(0.2, 1), ObstacleGrid::kSurest) << "it drives";
 }
 
 TEST(HeardPlaces, ThePeerThatABeaconExplainsIsNone) {
