@@ -5,6 +5,7 @@
 #include "services/vehicle/decision/decision_rules.h"
 #include "services/vehicle/decision/lecture.h"
 #include "services/vehicle/decision/steering.h"
+#include "services/vehicle/decision/turn_room.h"
 #include "services/vehicle/situation/encounter.h"
 
 namespace giveway {
@@ -85,6 +86,9 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
                        .cause_tick = turn->cause_tick};
     // Straight on until it is slow enough for the turn: both rims brake alike.
     steering.heading_error_rad = 0;
+  }
+  if (s.own.speed_m_s < kStandingSpeed_m_s) {
+    steering.heading_error_rad = TurnWithinRoom(steering.heading_error_rad, profile, s.places);
   }
   action.blocked_by = steering.blocked_by;
   action.steer_side = steering.side;
