@@ -87,7 +87,8 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
     // Straight on until it is slow enough for the turn: both rims brake alike.
     steering.heading_error_rad = 0;
   }
-  if (s.own.speed_m_s < kStandingSpeed_m_s) {
+  if (s.own.speed_m_s < kStandingSpeed_m_s ||
+      Magnitude(steering.heading_error_rad) > kTurnOnTheSpot_rad) {
     steering.heading_error_rad = TurnWithinRoom(steering.heading_error_rad, profile, s.places);
   }
   action.blocked_by = steering.blocked_by;

@@ -22,8 +22,6 @@ constexpr double kLookahead_m = 3;
 constexpr double kKeepSide_rad = 0.6;
 // Past an obstacle, but not back: a vehicle that turns round in a lane meets its followers head-on.
 constexpr double kNoReturn_rad = 1.8;
-// With a larger heading error than this it turns on the spot before it drives.
-constexpr double kTurnOnTheSpot_rad = 0.3;
 // A turn by less than this is none.
 constexpr double kSmallTurn_rad = 0.02;
 // A gap no wider than this is none.

@@ -6,6 +6,9 @@
 
 namespace giveway {
 
+// With a larger heading error than this it turns on the spot before it drives.
+inline constexpr double kTurnOnTheSpot_rad = 0.3;
+
 struct Steering {
   double heading_error_rad = 0;       // wanted minus present heading, in (-pi, pi]
   VehicleId round = kNoVehicle;       // the halted peer that is being passed

@@ -165,7 +165,7 @@ void ObstacleGrid::Move(Vec2 moved_body, double turned_rad, double unsure_m2) {
   const double times = std::min(unsure_m2_ / kUnsure_m2, double{kSurest});
   const auto losses = static_cast<std::uint8_t>(times);
   unsure_m2_ = losses < kSurest ? unsure_m2_ - losses * kUnsure_m2 : 0;
-  Lose(std::min<std::uint8_t>(losses * kLoss, kSurest), kSurest + 1);
+  Lose(std::min<std::uint8_t>(losses * kLoss, kSurestNear), kSurestNear + 1);
 }
 
 void ObstacleGrid::Fade(double dt_s) {

@@ -156,6 +156,18 @@ TEST(ObstacleGrid, WhatWasHeardNearIsClearOnceOneConeHoldsAllOfItsCell) {
   EXPECT_FALSE(Holds(grid, there));
 }
 
+TEST(ObstacleGrid, WhatWasHeardNearIsForgottenAsItsPlaceGrowsUnsure) {
+  const auto held_after = [](double unsure_m) {
+    ObstacleGrid grid;
+    for (int i = 0; i < 5; ++i) grid.Hear(Near(true), {});
+    for (int i = 0; i < 100; ++i) grid.Move({0, 0}, 0, unsure_m * unsure_m / 100);
+    return Holds(grid, kNear);
+  };
+  EXPECT_TRUE(held_after(0.06));
+  EXPECT_FALSE(held_after(0.12));
+  EXPECT_FALSE(held_after(1e10));
+}
+
 TEST(ObstacleGrid, APeerKnownByItsBeaconsIsNotEntered) {
   ObstacleGrid grid;
   const KnownBody peer = {.centre_body = {1.0, 0}, .radius_m = 0.4};
