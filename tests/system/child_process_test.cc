@@ -88,9 +88,10 @@ TEST(ChildProcess, EveryLineIsHandedOnOnceWhereThatIsAskedFor) {
 }
 
 TEST(ChildProcess, WhatIsNotReadWaitsInItsPipe) {
-  ChildProcess child(Shell("echo one; sleep 0.3; echo four; sleep 60"));
+  ChildProcess child(Shell("trap 'echo four' USR1; echo one; while :; do sleep 0.05; done"));
   ASSERT_TRUE(WaitFor(&child, [&] { return child.Output().read == 4; }));
   child.HearOutput(false);
+  child.Signal(SIGUSR1);
   EXPECT_TRUE(WaitFor(&child, [&] { return child.Output().unread == 5; }));
   EXPECT_EQ(child.Output().read, 4U);
   child.HearOutput(true);

@@ -249,6 +249,11 @@ bool ProcessFaults::IsAwayForGood(MemberId member) const {
   return away != away_.end() && away->second->kind == Kind::kKill;
 }
 
+std::vector<const faults::Fault*> ProcessFaults::CutShortBy(const faults::Fault& fault) {
+  if (faults::ActorOf(fault.kind) != faults::Actor::kSupervisor) return {};
+  return claims_.CutShort(fault);
+}
+
 void ProcessFaults::Begin(const faults::Fault& fault) {
   if (fault.kind == Kind::kChurn) {
     churns_[&fault].left = fault.parameters.count.value_or(1);
@@ -379,7 +384,7 @@ void ProcessFaults::Turn(SteadyTime now, double time_s) {
 
 bool ProcessFaults::WorldAnswers() const {
   const auto world = processes_->PidOf(kTheWorld);
-  return world && !IsStopped(*world);
+  return world && (slow_.contains(kTheWorld) || !IsStopped(*world));
 }
 
 MemberCommand ProcessFaults::CommandNow(MemberId member) const {

@@ -83,6 +83,8 @@ class ProcessFaults {
   std::string EffectAtEndOf(const faults::Fault& fault) const;
   // Of one that is about to end: why it had nothing to act on. Empty: it had, or that is not known.
   std::string WhyNothingMet(const faults::Fault& fault) const;
+  // Those that are over, and whose effect can no longer come once this one starts.
+  std::vector<const faults::Fault*> CutShortBy(const faults::Fault& fault);
   // The faults, by index in the schedule, that caused the member's planned end.
   std::vector<std::size_t> KillersOf(MemberId member, const faults::Schedule& schedule) const;
   // Killed permanently.

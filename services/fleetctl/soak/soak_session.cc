@@ -287,6 +287,10 @@ void SoakSession::CarryOut(std::span<const FaultEdge> edges) {
     const faults::Fault& fault = schedule_[edge.fault];
     if (edge.begins) {
       watch_.NoteBegin(edge.fault, SteadyNow());
+      for (const faults::Fault* const cut : faults_.CutShortBy(fault)) {
+        watch_.NoteMetNothing(static_cast<std::size_t>(cut - schedule_.data()),
+                              "another fault started before the world had answered");
+      }
       faults_.Begin(fault);
       attackers_.Begin(fault);
     } else {

@@ -42,6 +42,19 @@ void SecondClaims::Turn(SteadyTime now, bool world_answers) {
   }
 }
 
+std::vector<const faults::Fault*> SecondClaims::CutShort(const faults::Fault& by) {
+  std::vector<const faults::Fault*> unanswered;
+  std::erase_if(claims_, [&](const auto& claim) {
+    const bool of_one = by.target.what == faults::Target::What::kVehicle;
+    const bool concerned = !of_one || by.target.vehicle == claim.first->target.vehicle;
+    const SecondClaim& course = claim.second.course;
+    if (!concerned || !course.HasEnded() || course.IsRefused()) return false;
+    unanswered.push_back(claim.first);
+    return true;
+  });
+  return unanswered;
+}
+
 std::string SecondClaims::EffectOf(const faults::Fault& fault) const {
   const auto claim = claims_.find(&fault);
   if (claim == claims_.end() || !claim->second.course.IsRefused()) return {};
