@@ -187,6 +187,11 @@ grep -q "no verb 'rum'" "$SCRATCH/err" || fail "unknown verb: $(cat "$SCRATCH/er
 refused "a fault of a soak" 'pause\.textproto:14: stands = pause: .*use fleetctl soak' "$SCRATCH/pause.textproto"
 sed 's/"pause"/"paus"/' "$SCRATCH/pause.textproto" >"$SCRATCH/paus.textproto"
 refused "no kind of fault" 'paus\.textproto:14: faults\.at\[0\]\.kind = "paus"' "$SCRATCH/paus.textproto"
+{
+  cat "$REPOSITORY/config/scenarios/patrol.textproto"
+  echo 'faults { at { name: "lost" time_s: 5 kind: "loss" vehicle: 1 for_s: 2 } }'
+} >"$SCRATCH/lost.textproto"
+refused "faults of who restarts" '--restart: a restarted vehicle would count' "$SCRATCH/lost.textproto" --restart
 
 # With --json the refusal is data, too.
 "$FLEETCTL" run no_such.textproto --json 2>/dev/null >"$SCRATCH/out" || true

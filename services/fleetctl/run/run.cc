@@ -102,6 +102,25 @@ void RefuseRestartOfClosed(const RunOptions& options, const Scenario& scenario) 
                      "leave --restart out, or write spawn { ... } in the scenario"}});
 }
 
+// Faults of what vehicles hear are rules for each, by times that count from its start; newcomers
+// next to named vehicles are given none, nor what --impair says for all.
+void RefuseUnheardOf(const RunOptions& options, const Scenario& scenario, const RunFaults& faults) {
+  if (faults.heard.empty()) return;
+  std::vector<Problem> problems;
+  if (options.restart) {
+    problems.push_back({options.scenario, 0, "--restart", "",
+                        "a restarted vehicle would count the times of its faults anew",
+                        "leave --restart out, or use fleetctl soak"});
+  }
+  const bool has_unnamed = !scenario.vehicles.empty() && NewcomerCount(options.fleet, scenario) > 0;
+  if (has_unnamed && !options.fleet.impair.empty()) {
+    problems.push_back({options.scenario, 0, "--impair", options.fleet.impair,
+                        "newcomers would not be given it next to faults of named vehicles",
+                        "write it into the scenario, as impair"});
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
 // The vehicles that faults may meet: those of the scenario, or where it names none those that ask
 // for the ids 1, 2, 3 ..., see FleetSpec::names_newcomers. Next to named ones they would ask for
 // ids that are taken.
@@ -146,6 +165,7 @@ int StartAndWatch(const RunOptions& options) {
   if (own_faults) {
     faults = FaultsOfRun(*own_faults, scenario, FleetOf(options, scenario),
                          ImpairmentOf(options, scenario));
+    RefuseUnheardOf(options, scenario, *faults);
   }
   const std::string qos_file = ResolveQosFile(options.qos_file);
   static_cast<void>(ReadSoundQos(qos_file, DeploymentOf(scenario)));
