@@ -134,6 +134,7 @@ for _ in $(seq 100); do
   grep -qs listens replay.out && break
   sleep 0.05
 done
+sleep 1
 sed '/profile_name="fleet_beacon_reader"/,/<\/data_/ s/<nanosec>150000000/<nanosec>180000000/' \
   "$qos" >deadline.xml
 "$FLEETCTL" qos apply deadline.xml --to 1 --domain "$domain" >apply.out 2>&1 ||

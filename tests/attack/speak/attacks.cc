@@ -135,9 +135,9 @@ void OrderElsewhere(const Orders& orders) {
 void ReplayOrders(const Orders& orders) {
   Intruder intruder(orders);
   const std::string partition = link::VehiclePartition(orders.target);
-  auto heard = intruder.Participant().MakeReader<wire::Order>(partition);
   auto writer = intruder.Participant().MakeWriter<wire::Order>(partition);
-  intruder.AwaitReader(writer);
+  intruder.AwaitReader(writer);  // before it has a reader of its own
+  auto heard = intruder.Participant().MakeReader<wire::Order>(partition);
   std::vector<wire::Order> kept;
   std::puts("listens");
   std::fflush(stdout);
