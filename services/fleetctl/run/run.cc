@@ -109,7 +109,7 @@ void RefuseUnheardOf(const RunOptions& options, const Scenario& scenario, const 
   std::vector<Problem> problems;
   if (options.restart) {
     problems.push_back({options.scenario, 0, "--restart", "",
-                        "a restarted vehicle would count the times of its faults anew",
+                        "a restarted vehicle would count the times of its faults again",
                         "leave --restart out, or use fleetctl soak"});
   }
   const bool has_unnamed = !scenario.vehicles.empty() && NewcomerCount(options.fleet, scenario) > 0;
