@@ -84,7 +84,7 @@ judge() {
 
 # intrude NAME WHAT: false where the intruder could not.
 intrude() {
-  timeout 60 "$ATTACKER" "$1" "$domain" "$qos" 1 800 >attack.out 2>&1 && return
+  timeout 150 "$ATTACKER" "$1" "$domain" "$qos" 1 800 >attack.out 2>&1 && return
   row FAILED "$2: the intruder could not: $(cat attack.out)"
   failures=$((failures + 1))
   return 1
