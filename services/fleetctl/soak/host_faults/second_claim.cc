@@ -23,6 +23,11 @@ bool SecondClaim::IsOver(SteadyTime now) const {
   return ended_ && (refused_ || !awaited_ || now >= *ended_ + kAnswerAfterEnd);
 }
 
+bool SecondClaim::IsCutShort(const faults::Target& own, const faults::Target& by) const {
+  using What = faults::Target::What;
+  return ended_ && !refused_ && (by == own || by.what == What::kWorld || by.what == What::kAll);
+}
+
 void SecondClaims::Begin(const faults::Fault& fault, std::unique_ptr<ChildProcess> process) {
   claims_[&fault] = {std::move(process), {}};
 }
@@ -45,10 +50,7 @@ void SecondClaims::Turn(SteadyTime now, bool world_answers) {
 std::vector<const faults::Fault*> SecondClaims::CutShort(const faults::Fault& by) {
   std::vector<const faults::Fault*> unanswered;
   std::erase_if(claims_, [&](const auto& claim) {
-    const bool of_one = by.target.what == faults::Target::What::kVehicle;
-    const bool concerned = !of_one || by.target.vehicle == claim.first->target.vehicle;
-    const SecondClaim& course = claim.second.course;
-    if (!concerned || !course.HasEnded() || course.IsRefused()) return false;
+    if (!claim.second.course.IsCutShort(claim.first->target, by.target)) return false;
     unanswered.push_back(claim.first);
     return true;
   });

@@ -29,8 +29,8 @@ class SecondClaim {
 
   bool IsRefused() const { return refused_; }
   bool WorldWasAway() const { return world_was_away_; }
-  // The fault is over, though an answer may be awaited still.
-  bool HasEnded() const { return ended_.has_value(); }
+  // The fault is over and unanswered, and another one starts that concerns its vehicle or world.
+  bool IsCutShort(const faults::Target& own, const faults::Target& by) const;
   // The fault is over, and no answer is awaited any more.
   bool IsOver(SteadyTime now) const;
 
@@ -49,9 +49,8 @@ class SecondClaims {
   // Call often. `world_answers`: it is there, and not stopped.
   void Turn(SteadyTime now, bool world_answers);
   bool AreAwaited() const { return !claims_.empty(); }
-  // Another fault starts: ends the unanswered ones that are past their own and whose vehicle or
-  // world it concerns, and returns their faults. Else a second process could get the id of a
-  // vehicle that is gone by then.
+  // Another fault starts: ends those that it cuts short, and returns their faults. Else a second
+  // process could get the id of a vehicle that is gone by then.
   std::vector<const faults::Fault*> CutShort(const faults::Fault& by);
 
   // Empty if it was not refused yet.

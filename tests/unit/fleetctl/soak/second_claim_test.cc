@@ -37,6 +37,22 @@ TEST(SecondClaim, OfAShortFaultIsAwaitedALittleLonger) {
   EXPECT_TRUE(claim.IsOver(seconds(108)));
 }
 
+// Else its process could get the id of a vehicle that the other fault kills.
+TEST(SecondClaim, PastItsFaultIsCutShortByAnotherOfItsVehicleOrWorld) {
+  using What = faults::Target::What;
+  const faults::Target own{What::kVehicle, VehicleId{2}};
+  SecondClaim claim;
+  EXPECT_FALSE(claim.IsCutShort(own, own)) << "its own fault lasts";
+  claim.NoteFaultOver(seconds(100));
+  EXPECT_TRUE(claim.IsCutShort(own, own));
+  EXPECT_TRUE(claim.IsCutShort(own, {What::kWorld}));
+  EXPECT_TRUE(claim.IsCutShort(own, {What::kAll}));
+  EXPECT_FALSE(claim.IsCutShort(own, {What::kVehicle, VehicleId{3}}));
+  EXPECT_FALSE(claim.IsCutShort(own, {What::kDiscoveryServer}));
+  claim.NoteLine(kRefusal);
+  EXPECT_FALSE(claim.IsCutShort(own, own)) << "it was answered";
+}
+
 TEST(SecondClaim, IsNotAwaitedOfAWorldThatWasAway) {
   SecondClaim claim;
   claim.NoteWorldAway();
