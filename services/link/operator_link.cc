@@ -17,8 +17,8 @@
 namespace giveway::link {
 namespace {
 
-constexpr std::size_t kMostRefusals = 4;  // kept for the log; the counter has all
-constexpr std::size_t kMostHeld = 16;     // answers; the oldest are dropped
+constexpr std::size_t kMostRefusedAnswers = 4;  // kept for the log; the counter has all
+constexpr std::size_t kMostHeld = 16;           // answers; the oldest are dropped
 
 // An answer of a participant that may not speak for the vehicle, or not yet: of a process that
 // restarted it comes before the former participant is known to be gone.
@@ -45,7 +45,7 @@ struct OperatorLink::Impl {
   void Refuse(const AdminAnswer& answer, const rtps::GUID_t& writer, const char* field,
               const char* why) {
     ++refused;
-    if (refusals.size() == kMostRefusals) return;
+    if (refusals.size() == kMostRefusedAnswers) return;
     refusals.push_back({.sample = "answer",
                         .vehicle = answer.vehicle,
                         .writer = Identity(writer),

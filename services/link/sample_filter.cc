@@ -13,8 +13,8 @@
 namespace giveway::link {
 namespace {
 
-constexpr std::size_t kMostKept = 4;  // refusals between two looks; the counter has all
-constexpr std::size_t kEncapsulation = 4;
+constexpr std::size_t kMostKept = 4;       // refusals between two looks; the counter has all
+constexpr std::size_t kPayloadHeader = 4;  // bytes of the encapsulation
 constexpr const char* kTooMany = "it names more ids than one may";
 constexpr std::string_view kExpression = "filter ";
 
@@ -64,10 +64,10 @@ KeyReader::KeyReader(const rtps::CacheChange_t& change, const FilterOfTopic& top
 }
 
 bool KeyReader::ReadPayload(const rtps::SerializedPayload_t& payload) {
-  if (payload.data == nullptr || payload.length < kEncapsulation + 4 * size_) return false;
+  if (payload.data == nullptr || payload.length < kPayloadHeader + 4 * size_) return false;
   const bool little = (payload.data[1] & 1U) != 0;
   for (std::size_t i = 0; i < size_; ++i) {
-    numbers_[i] = Number32(payload.data + kEncapsulation + 4 * i, little);
+    numbers_[i] = Number32(payload.data + kPayloadHeader + 4 * i, little);
   }
   return true;
 }

@@ -18,7 +18,7 @@ struct RingFile {
 };
 
 // By vehicle, the newest first: "vehicle-3" of vehicle-3.17.recording.
-std::map<std::string, std::vector<RingFile>> FilesIn(const fs::path& folder) {
+std::map<std::string, std::vector<RingFile>> RingFilesIn(const fs::path& folder) {
   std::map<std::string, std::vector<RingFile>> files;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
@@ -58,7 +58,7 @@ RingKeeper::RingKeeper(const link::LinkOptions& options, const std::string& key,
       ring_(ring) {
   for (const VehicleId vehicle : fleet_) link_.Seek(vehicle);
   // A resumed soak keeps those of the fleet before, which its report may name.
-  for (const auto& [vehicle, files] : FilesIn(folder_)) {
+  for (const auto& [vehicle, files] : RingFilesIn(folder_)) {
     for (const RingFile& file : files) kept_files_.insert(file.path);
   }
 }
@@ -68,7 +68,7 @@ void RingKeeper::Keep(SteadyTime now, double time_s) {
   if (soon || kept_.size() == kMostOrders) return;
   ordered_ = now;
   KeptRings kept{.time_s = time_s};
-  for (const auto& [vehicle, files] : FilesIn(folder_)) {
+  for (const auto& [vehicle, files] : RingFilesIn(folder_)) {
     for (const RingFile& file : files) kept_files_.insert(file.path);
   }
   for (const VehicleId vehicle : fleet_) {
@@ -93,7 +93,7 @@ void RingKeeper::Turn(SteadyTime now) {
 
 // A kept file may be followed by others that the vehicle has yet to keep.
 void RingKeeper::Prune() {
-  for (const auto& [vehicle, files] : FilesIn(folder_)) {
+  for (const auto& [vehicle, files] : RingFilesIn(folder_)) {
     std::size_t unkept = 0;
     for (const RingFile& file : files) {
       if (kept_files_.contains(file.path) || ++unkept <= kMostUnkept) continue;
