@@ -137,6 +137,8 @@ accounted() {
     fail "beacons are not accounted for: $(jq -c .accounting "$report/report.json")"
   jq -e '.faults | map(select(.kind == "qos_apply").observed_how) == ["patient_readers.xml in effect on 1 vehicle, and its own again"]' \
     "$report/report.json" >/dev/null || fail "no other profile set was taken and taken back: $(jq -c '.faults' "$report/report.json")"
+  jq -e '.supervisor_cpu_share > 0.005 and .supervisor_cpu_share < 2' "$report/report.json" >/dev/null ||
+    fail "the supervisor's processor time is not measured: $(jq -c .supervisor_cpu_share "$report/report.json")"
   grep -q 'Accounting of samples' "$report/report.html" || fail "the page does not show the accounting"
   jq -e '[.histograms[] | select((.name == "beacon_latency" or .name == "scan_latency") and .values > 400)] | length == 2' \
     "$report/report.json" >/dev/null || fail "the latency of samples is not measured"

@@ -1,5 +1,6 @@
 #include "services/fleetctl/process/process_resources.h"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -52,6 +53,15 @@ std::optional<ProcessResources> ReadResources(pid_t pid) {
     ++resources->descriptors;
   }
   return resources;
+}
+
+double OwnProcessorSeconds() {
+  rusage own{};
+  ::getrusage(RUSAGE_SELF, &own);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
+  };
+  return seconds(own.ru_utime) + seconds(own.ru_stime);
 }
 
 }  // namespace giveway::fleetctl

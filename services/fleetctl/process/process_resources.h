@@ -23,5 +23,7 @@ std::optional<ProcessResources> ParseResources(std::string_view stat, std::strin
                                                double ticks_per_second);
 // nullopt if the process is gone.
 std::optional<ProcessResources> ReadResources(pid_t pid);
+// User and system time of this process, in seconds.
+double OwnProcessorSeconds();
 
 }  // namespace giveway::fleetctl

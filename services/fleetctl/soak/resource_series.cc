@@ -96,6 +96,8 @@ void ResourceSeries::Add(const std::string& process, double time_s,
   const double since_s = time_s - life.last_s;
   const double cpu_s = resources.cpu_s - life.last_cpu_s;
   const bool has_share = life.has_last && since_s > 0;
+  // A life that started between two samples has used all of its time since the first of them.
+  if (life.has_last || life.number > 0) fleet_cpu_s_ += cpu_s;
   life.last_s = time_s;
   life.last_cpu_s = resources.cpu_s;
   life.has_last = true;
@@ -116,6 +118,16 @@ void ResourceSeries::AddSharedMemory(double time_s, std::uint64_t bytes) {
   if (time_s - life.began_s < warm_up_s_) return;
   life.series[static_cast<std::size_t>(ResourceKind::kSharedMemoryBytes)].Add(
       time_s, static_cast<double>(bytes));
+}
+
+void ResourceSeries::AddSupervisor(double cpu_s) {
+  if (!supervisor_first_cpu_s_) supervisor_first_cpu_s_ = cpu_s;
+  supervisor_last_cpu_s_ = cpu_s;
+}
+
+std::optional<double> ResourceSeries::SupervisorShare() const {
+  if (!supervisor_first_cpu_s_ || fleet_cpu_s_ <= 0) return std::nullopt;
+  return (supervisor_last_cpu_s_ - *supervisor_first_cpu_s_) / fleet_cpu_s_;
 }
 
 std::vector<ResourceSlope> ResourceSeries::SlopesOf(const std::string& process,

@@ -57,6 +57,8 @@ class ResourceSeries {
            std::optional<std::uint64_t> heap_bytes = std::nullopt);
   // The bytes of the fleet in /dev/shm.
   void AddSharedMemory(double time_s, std::uint64_t bytes);
+  // The processor time the supervisor has used since it started, as often as Add.
+  void AddSupervisor(double cpu_s);
   // The process has ended: further samples under its name belong to another life.
   void EndLife(const std::string& process);
 
@@ -67,6 +69,9 @@ class ResourceSeries {
   std::vector<ResourceSlope> EndedSlopes() const;
   // Lives that ended too early to be judged.
   std::uint64_t LivesTooShort() const { return lives_too_short_; }
+  // The supervisor's processor time in relation to that of all processes, since the first sample.
+  // nullopt before there are two.
+  std::optional<double> SupervisorShare() const;
 
  private:
   struct Life {
@@ -88,6 +93,9 @@ class ResourceSeries {
   std::vector<ResourceSlope> ended_;
   std::uint64_t lives_too_short_ = 0;
   std::size_t rows_dropped_ = 0;
+  double fleet_cpu_s_ = 0;  // of all processes, between their samples
+  std::optional<double> supervisor_first_cpu_s_;
+  double supervisor_last_cpu_s_ = 0;
 };
 
 // A row is a leak if its slope is one by itself (statistics::IsLeak) and remains one after

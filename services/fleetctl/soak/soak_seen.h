@@ -70,6 +70,7 @@ struct SoakSeen {
   std::uint64_t modes_counted = 0;
   std::vector<ResourceSlope> slopes;
   std::uint64_t lives_too_short = 0;
+  std::optional<double> supervisor_cpu_share;  // of the fleet's processor time
   FleetTiming timing{Nanoseconds{0}};
   FleetAccounting accounting;
   std::vector<KeptRings> kept_rings;

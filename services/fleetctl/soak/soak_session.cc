@@ -8,6 +8,7 @@
 
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/process/process_resources.h"
 #include "services/fleetctl/process/run_key.h"
 #include "services/runtime/process.h"
 
@@ -160,6 +161,7 @@ void SoakSession::Gather(SoakSeen* seen) const {
     seen->kept_rings[i].page = black_box_->Written(i);
   }
   seen->slopes = resources_.EndedSlopes();
+  seen->supervisor_cpu_share = resources_.SupervisorShare();
   for (const VehicleId vehicle : fleet_) {
     seen->step_p99_us[vehicle] = watch_.HighestStepP99_us(vehicle);
   }
@@ -397,6 +399,7 @@ void SoakSession::Sample(SteadyTime now) {
   };
   sample(kTheWorld, std::nullopt);
   for (const VehicleId vehicle : fleet_) sample(MemberOf(vehicle), watch_.HeapOf(vehicle, now));
+  resources_.AddSupervisor(OwnProcessorSeconds());
   if (++samples_ % kSharedMemoryEvery == 0) {
     resources_.AddSharedMemory(time_s, ReadSharedMemory(living));
   }

@@ -297,6 +297,7 @@ class SoakEvaluation {
   void CheckSlopes() {
     result_.slopes = from_.seen.slopes;
     result_.lives_too_short = from_.seen.lives_too_short;
+    result_.supervisor_cpu_share = from_.seen.supervisor_cpu_share;
     for (const ResourceSlope& slope : result_.slopes) {
       if (!slope.leak) continue;
       AddViolation(

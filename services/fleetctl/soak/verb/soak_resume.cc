@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "services/config/problem.h"
 #include "services/fleetctl/soak/soak_json.h"
@@ -66,6 +67,15 @@ void DropBlocks(SoakResult* joined) {
   joined->near_misses_by_block.clear();
   joined->budget_spent_by_block.clear();
   for (SoakHistogram& measured : joined->histograms) measured.blocks.clear();
+}
+
+// Each leg's share counts for as long as it ran.
+void JoinSupervisor(const SoakResult& rest, double by_s, SoakResult* joined) {
+  std::optional<double>& share = joined->supervisor_cpu_share;
+  if (!rest.supervisor_cpu_share) return;
+  share = share ? (*share * by_s + *rest.supervisor_cpu_share * rest.ran_s) /
+                      std::max(1.0, by_s + rest.ran_s)
+                : rest.supervisor_cpu_share;
 }
 
 void JoinCounts(const SoakResult& rest, double by_s, SoakResult* joined) {
@@ -184,6 +194,7 @@ SoakResult Joined(const SoakResult& so_far, const SoakResult& rest) {
   JoinHistograms(rest, &joined);
   DropBlocks(&joined);
   JoinCounts(rest, by_s, &joined);
+  JoinSupervisor(rest, by_s, &joined);
   JoinVerdicts(rest, &joined);
   return joined;
 }

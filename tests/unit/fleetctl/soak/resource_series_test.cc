@@ -189,6 +189,20 @@ TEST(ResourcesOverTime, SharedMemoryBelongsToTheFleet) {
   EXPECT_TRUE(slopes[0].leak);
 }
 
+// The first process has used two minutes before the first sample; the second dies and is started
+// again, and has used half a second when it is sampled first.
+TEST(ResourcesOverTime, TheSupervisorIsComparedWithAllProcessesSinceTheFirstSample) {
+  ResourceSeries series(kWarmUp_s);
+  EXPECT_FALSE(series.SupervisorShare());
+  for (int t = 0; t <= 20; ++t) {
+    series.Add("vehicle-1", t, Using(120 + 0.5 * t, 2e7));
+    if (t == 10) series.EndLife("vehicle-2");
+    series.Add("vehicle-2", t, Using(0.5 * (t < 10 ? t + 1 : t - 9), 2e7));
+    series.AddSupervisor(30 + 0.1 * t);
+  }
+  EXPECT_DOUBLE_EQ(series.SupervisorShare().value_or(0), 2 / (10 + 4.5 + 5.5));
+}
+
 TEST(SharedMemoryOfMaps, CountsEachSegmentOnceAndOnlyThose) {
   const std::string first =
       "7f0000000000-7f0000080000 rw-s 00000000 00:1a 17 /dev/shm/fastrtps_port7411\n"

@@ -48,6 +48,8 @@ TEST(SoakResume, TwoLegsAreOneSoak) {
   first.ran_s = 100;
   first.planned_s = 280;
   rest.ran_s = 180;
+  first.supervisor_cpu_share = 0.14;
+  rest.supervisor_cpu_share = 0.28;
   first.budget_spent = 1;
   rest.budget_spent = 2;
   rest.narrowest_margin->share_left = 0.1;
@@ -64,6 +66,7 @@ TEST(SoakResume, TwoLegsAreOneSoak) {
   EXPECT_EQ(joined.near_misses_counted, 60U);
   EXPECT_EQ(joined.near_misses.back().time_s, rest.near_misses.back().time_s + 100);
   EXPECT_EQ(joined.budget_spent, 3U);
+  EXPECT_DOUBLE_EQ(joined.supervisor_cpu_share.value_or(0), 0.23);
   EXPECT_EQ(joined.block_s, 0);  // those of two legs are of different lengths
   EXPECT_TRUE(joined.near_misses_by_block.empty());
   EXPECT_TRUE(joined.histograms[0].blocks.empty());

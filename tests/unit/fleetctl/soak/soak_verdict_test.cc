@@ -241,6 +241,12 @@ TEST_F(SoakVerdictTest, FailsWhereAProcessGrows) {
   EXPECT_EQ(Judged().violations.at(0).invariant, "leak");
 }
 
+TEST_F(SoakVerdictTest, SaysWhatTheSupervisorTakes) {
+  EXPECT_FALSE(Judged().supervisor_cpu_share);
+  seen_.supervisor_cpu_share = 0.07;
+  EXPECT_EQ(Judged().supervisor_cpu_share, 0.07);
+}
+
 TEST_F(SoakVerdictTest, FailsWhereABrainTakesLongerThanItMay) {
   seen_.step_p99_us = {{kOne, 9'000}, {kTwo, 11'000}};
   EXPECT_EQ(Judged().violations.at(0).invariant, "slow_loop");
