@@ -25,15 +25,14 @@ end_all() {
   rm -rf "$SCRATCH"
 }
 trap end_all EXIT
-for _ in $(seq 200); do
-  domain=$(sed -n 's/.* on domain \([0-9]*\)$/\1/p' run.err)
-  [[ -n $domain ]] && grep -qs 'started with 4' logs/world.log && break
-  sleep 0.1
-done
-[[ -n ${domain:-} ]] || {
+domain=$(domain_said run.err) || {
   echo "FAILED: no fleet: $(cat run.err)"
   exit 1
 }
+for _ in $(seq 200); do
+  grep -qs 'started with 4' logs/world.log && break
+  sleep 0.1
+done
 "$FLEETCTL" listen world/truth --json --domain "$domain" >truth 2>listen.err &
 listener=$!
 mapfile -t pids < <(processes_on "$domain")

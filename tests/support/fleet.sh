@@ -2,7 +2,7 @@
 # What the system tests share: where the programs are, a scratch folder, how failures are reported, and which
 # processes belong to a run. Sourced, never run. Processes are found by id and by their own arguments, never
 # by name alone: other runs on the machine do not matter here.
-set -euo pipefail
+set -Eeuo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/../support/only_late.sh"
 source "$(dirname "${BASH_SOURCE[0]}")/../support/jq.sh"
@@ -15,6 +15,9 @@ FLEETCTL=${GIVEWAY_BIN_DIR:-$REPOSITORY/build/release/bin}/fleetctl
 SCRATCH=$(mktemp -d)
 trap 'rm -rf "$SCRATCH"' EXIT
 failures=0
+# A script that `set -e` ends says where: its missing lines alone would not.
+trap 'say_where_it_ends $? "${BASH_SOURCE[0]##*/}:$LINENO" "$BASH_COMMAND"' ERR
+say_where_it_ends() { [[ $BASH_SUBSHELL -gt 0 || $failures -gt 0 ]] || echo "$2: exit code $1: $3" >&2; }
 
 fail() {
   printf 'FAILED: %s\n' "$*"
@@ -56,6 +59,19 @@ wait_for_child() {
     pid=$(find_child "$1" "$2")
     [[ -n $pid ]] && echo "$pid" && return
     sleep 0.02
+  done
+  return 1
+}
+
+# domain_said FILE [TENTHS]: prints the domain that a `fleetctl run` in the background names on its stderr, which
+# is in FILE; waits 20 seconds, or so many tenths of one. Right after the start the file need not be there: the
+# other process creates it.
+domain_said() {
+  local domain='' _
+  for _ in $(seq "${2:-200}"); do
+    [[ ! -e $1 ]] || domain=$(sed -n 's/.* on domain \([0-9]*\)$/\1/p' "$1")
+    [[ -z $domain ]] || { echo "$domain" && return; }
+    sleep 0.1
   done
   return 1
 }

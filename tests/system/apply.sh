@@ -39,15 +39,14 @@ cp "$REPOSITORY/tests/system/rounds.textproto" .
 "$FLEETCTL" run rounds.textproto --impair loss=0.1 --json --logs logs >run.json 2>run.err &
 fleet=$!
 trap 'kill -INT "$fleet" 2>/dev/null || true; wait "$fleet" 2>/dev/null || true; rm -rf "$SCRATCH"' EXIT
-for _ in $(seq 200); do
-  domain=$(sed -n 's/.* on domain \([0-9]*\)$/\1/p' run.err)
-  [[ -n $domain ]] && grep -q running run.err && break
-  sleep 0.1
-done
-[[ -n ${domain:-} ]] || {
+domain=$(domain_said run.err) || {
   fail "no domain in $(cat run.err)"
   exit 1
 }
+for _ in $(seq 200); do
+  grep -q running run.err && break
+  sleep 0.1
+done
 pid=$(find_child "$fleet" 2)
 listen_places two "$domain" 2
 await_places two 1 21

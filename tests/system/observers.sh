@@ -31,8 +31,7 @@ start_run() {
   : >run.err # that of the run before names a domain too
   "$FLEETCTL" run "$1" --json --logs logs >run.json 2>run.err &
   fleet=$!
-  until_true 20 grep -q ' on domain ' run.err || fail "$1: no domain in $(cat run.err)"
-  domain=$(sed -n 's/.* on domain \([0-9]*\)$/\1/p' run.err)
+  domain=$(domain_said run.err) || fail "$1: no domain in $(cat run.err)"
   until_true 20 spoken || fail "$1: no truth on $domain: $(cat err)"
 }
 spoken() { timeout 30 "$FLEETCTL" listen world/truth --domain "$domain" --count 1 >out 2>err; }

@@ -118,13 +118,7 @@ crossing() { # SET: starts a crossing with it; sets $domain
   : >run.json.err # before there is anything to look for
   judged_run run.json logs intersection_yield --qos "$1" &
   fleet=$!
-  domain=
-  for _ in $(seq 100); do
-    domain=$(sed -n 's/.* on domain \([0-9]*\)$/\1/p' run.json.err)
-    [[ -z $domain ]] || return 0
-    sleep 0.1
-  done
-  fail "$1: no domain in $(cat run.json.err)"
+  domain=$(domain_said run.json.err) || fail "$1: no domain in $(cat run.json.err)"
 }
 
 arrives() { # SET: the running crossing passes
