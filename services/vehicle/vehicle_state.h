@@ -127,7 +127,7 @@ struct BrainCounters {
 };
 
 struct VehicleState {
-  static constexpr std::uint32_t kVersion = 2;
+  static constexpr std::uint32_t kVersion = 2;  // of snapshots; see services/snapshot
 
   Published published;
   InWorld world;

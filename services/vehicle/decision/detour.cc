@@ -9,11 +9,12 @@
 namespace giveway {
 namespace {
 
+// Cells of the map, 10.25 m a side with this vehicle in the middle one.
 constexpr int kHalf = 20;
 constexpr int kSide = 2 * kHalf + 1;
 constexpr int kCells = kSide * kSide;
 constexpr double kCell_m = 0.25;
-constexpr double kNever = 1e9;
+constexpr double kNever = 1e9;  // more than any path across the map costs
 // Inside a keep-out, but without contact of the bodies: expensive, only for leaving it.
 constexpr double kScrape = 0.9;
 constexpr double kScrapeCost = 8;
@@ -24,7 +25,7 @@ struct Step {
   int dx, dy;
   double length;
 };
-constexpr double kDiagonal = 1.4142135623730951;
+constexpr double kDiagonal = 1.4142135623730951;  // of a cell of side 1
 constexpr std::array<Step, 8> kSteps = {{{1, 0, 1},
                                          {0, 1, 1},
                                          {-1, 0, 1},

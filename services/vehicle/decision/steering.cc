@@ -101,8 +101,8 @@ BlockedHeadings WhatBlocks(const Situation& s, double path_m) {
 // Echoes near that no beacon explains. Only for a vehicle that makes no progress: the bearing of an
 // echo within its cone is unknown, and blocking the whole cone takes more than the obstacle does.
 void AddEchoes(const Situation& s, BlockedHeadings* headings) {
-  constexpr double kNear_m = 0.6;
-  constexpr double kHalf_rad = 0.6;
+  constexpr double kNear_m = 0.6;         // from the transducer
+  constexpr double kHalf_rad = 0.6;       // more than a cone: the body has a width too
   constexpr double kTurnAway_rad = 0.15;  // at a time, from what stops the vehicle as it stands
   const RobotModel& profile = s.own.options.profile;
   for (const std::size_t i : BitsOf(s.own.ranges.Echoes() & ~s.near.explained)) {
@@ -123,9 +123,9 @@ void AddEchoes(const Situation& s, BlockedHeadings* headings) {
 // The same of places where something was heard: from its middle to where the shell gets past. The
 // nearest in each direction.
 void AddPlaces(const Situation& s, BlockedHeadings* headings) {
-  constexpr double kNear_m = 0.5;     // from the own shell
-  constexpr double kPasses_m = 0.08;  // between the shell and the middle of a cell
-  constexpr std::size_t kDirections = 32;
+  constexpr double kNear_m = 0.5;          // from the own shell
+  constexpr double kPasses_m = 0.08;       // between the shell and the middle of a cell
+  constexpr std::size_t kDirections = 32;  // of 11 degrees: half of what fits in BlockedHeadings
   const double room_m = s.own.options.profile.body_radius_m + kPasses_m;
   std::array<const Vec2*, kDirections> nearest{};
   for (const Vec2& place : s.places) {
@@ -199,9 +199,9 @@ std::optional<double> FreeHeading(const BlockedHeadings& headings, double wanted
 // Each is turned by the golden angle from the one before, so that a few attempts cover the full
 // circle, however narrow the exit, and none is tried twice.
 std::optional<double> EscapeHeading(double wanted_rad, const Situation& s) {
-  constexpr double kGoldenAngle_rad = 2.399963229728653;
-  constexpr int kHeadings = 24;
-  constexpr double kOut_m = 0.1;
+  constexpr double kGoldenAngle_rad = 2.399963229728653;  // pi * (3 - sqrt(5))
+  constexpr int kHeadings = 24;   // so many by the golden angle leave gaps of 20 degrees at most
+  constexpr double kOut_m = 0.1;  // less is not worth a turn
   for (int i = 0; i < kHeadings; ++i) {
     const double heading_rad =
         WrapAngle(wanted_rad + (s.escape.escape_attempts + i) * kGoldenAngle_rad);
@@ -235,7 +235,7 @@ Turn TurnPast(const BlockedHeadings& headings, double wanted_rad, int side) {
 // With others near and ahead it lets them clear the space: turning away in front of them would
 // block more of them.
 bool HasCompany(const Situation& s) {
-  constexpr double kNear_m = 1;
+  constexpr double kNear_m = 1;  // shell to shell
   return std::ranges::any_of(s.near.peers, [&s](const PeerView& view) {
     return view.gap_m < kNear_m && !view.peer->left &&
            Dot(view.offset_world, s.own.path.direction_world) > 0;
@@ -326,7 +326,7 @@ namespace {
 // vehicle that speeds up keeps the turn it has, and sways from side to side.
 double SpeedBesideTurn(const RobotModel& profile, const Twist& now, double turn_rad_s,
                        double speed_m_s) {
-  constexpr double kAhead_s = 0.25;
+  constexpr double kAhead_s = 0.25;  // what both rims may gain within: five ticks of 50 ms
   constexpr double kNoTurn_m_s = 0.005;
   const double rim_m_s = profile.drive.axle_m / 2 * Magnitude(turn_rad_s - now.turn_rad_s);
   if (rim_m_s < kNoTurn_m_s) return speed_m_s;
@@ -434,7 +434,7 @@ double RimAfterTick(const RobotModel& profile, double now_m_s, double target_m_s
 // brakes at least as hard as it speeds up slows down in any turn.
 Rims WithinLimit(const RobotModel& profile, const Rims& now, Rims target, double limit_m_s,
                  double tick_s) {
-  constexpr double kRounding_m_s = 1e-9;
+  constexpr double kRounding_m_s = 1e-9;  // of the sums that both sides are made by
   if (profile.acceleration_m_s2 <= profile.deceleration_m_s2) return target;
   const auto after = [&](double from, double to) {
     return RimAfterTick(profile, from, to, tick_s);
@@ -469,7 +469,7 @@ Rims Straightened(const RobotModel& profile, const Rims& now, Rims target, doubl
 WheelSpeeds Drive(const RobotModel& profile, const Twist& now, const Steering& steering,
                   const Pace& pace) {
   if (pace.limit_m_s <= 0 && !pace.may_turn) return {};
-  constexpr double kGain_per_s = 2.0;
+  constexpr double kGain_per_s = 2.0;  // an error falls to a third in half a second
   const double error = steering.heading_error_rad;
   const double most_rad_s = MostTurnOf(profile);
   const double turn = std::clamp(kGain_per_s * error, -most_rad_s, most_rad_s);

@@ -13,11 +13,12 @@
 namespace giveway {
 namespace {
 
+// A vehicle that is unsure by more does not know where it is at all.
 constexpr double kMaxSigma_m = 1000.0;
 constexpr double kMaxSigma_rad = 2 * kPi;
 // Of two variances no covariance is greater than their mean, but for rounding.
 constexpr double kRounding_m2 = 1e-9;
-constexpr double kMaxRate_m_s2 = 20;
+constexpr double kMaxRate_m_s2 = 20;  // 2 g: no wheel holds more
 
 // No part of a vehicle is smaller or larger than this. An axle of next to nothing would turn the
 // peer by angles that are no angles any more.
@@ -26,7 +27,7 @@ constexpr double kMaxLength_m = 20;
 constexpr double kAboveZero = std::numeric_limits<double>::denorm_min();
 constexpr double kHeading_rad = kPi + 1e-9;
 
-constexpr std::size_t kNumbers = 19;
+constexpr std::size_t kNumbers = 19;  // of a beacon that are not whole
 using Numbers = std::array<double, kNumbers>;
 
 // In the order of kNames.

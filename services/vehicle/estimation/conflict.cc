@@ -8,6 +8,7 @@
 namespace giveway {
 namespace {
 
+// Empty, and so that the union with any other is the other.
 constexpr Stretch kNowhere = {std::numeric_limits<double>::infinity(),
                               -std::numeric_limits<double>::infinity()};
 

@@ -19,7 +19,7 @@ static_assert(2 * kGainNear > ObstacleGrid::kSurest);
 // Heard twice in one place it does not fade.
 constexpr std::uint8_t kFirm = 7;
 static_assert(kGain < kFirm && 2 * kGain >= kFirm);
-constexpr double kFadesEvery_s = 1;
+constexpr double kFadesEvery_s = 1;  // by one: an echo that came once is gone after two seconds
 // Once the displacement since adds a standard deviation of half a cell, all cells are less sure.
 constexpr double kUnsure_m2 = 0.25 * ObstacleGrid::kCell_m * ObstacleGrid::kCell_m;
 
@@ -264,6 +264,7 @@ void ObstacleGrid::Gain(const HeardCone& heard, Vec2 apex, Vec2 axis,
 
 std::uint8_t ObstacleGrid::At(Vec2 point_body) const {
   const Vec2 offset = Rotated(point_body);
+  // Nearer to the rim the cell may be that of the opposite side.
   constexpr double kReach_m = kWide_m / 2 - kCell_m;
   if (Magnitude(offset.x) > kReach_m || Magnitude(offset.y) > kReach_m) return 0;
   const Vec2 at = at_grid_ + offset;

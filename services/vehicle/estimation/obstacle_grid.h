@@ -38,8 +38,9 @@ struct KnownBody {
 
 class ObstacleGrid {
  public:
-  static constexpr std::uint32_t kSide = 48;  // cells
-  static constexpr double kCell_m = 0.1;
+  // Cells: a row is one word of bits; 2.4 m to each side, echoes are entered up to 1.4 m off.
+  static constexpr std::uint32_t kSide = 48;
+  static constexpr double kCell_m = 0.1;  // as wide as a cone 0.2 m off
   static constexpr double kWide_m = kSide * kCell_m;
   // Confidence of a cell: from 0, nothing heard, to kSurest; it counts from kHeld on.
   static constexpr std::uint8_t kSurest = 12;

@@ -17,6 +17,7 @@
 
 namespace giveway {
 
+// Bounds what an intruder with many ids can fill.
 inline constexpr std::uint32_t kMaxPeers = 1024;
 
 // Where this vehicle stands in an encounter with one peer.

@@ -100,7 +100,7 @@ void CountWrong(double probability, PoseKeeping* keeping) {
 // it did not work, and may not yet.
 void Forget(const PoseFix& fix, const PoseFixModel& fitted, const FixTaker& taker,
             PoseKeeping* keeping) {
-  constexpr double kUnknown = 0.5;
+  constexpr double kUnknown = 0.5;  // share of wrong ones: either is as likely
   const double known_for_s = TicksBetween(keeping->agreed, fix.tick) * taker.tick_s;
   const double missing = std::max(0.0, known_for_s / fitted.every_s - 1);
   const double forgotten = 1 - Exp(missing * Log(1 - kShareOfOne));

@@ -22,6 +22,7 @@ struct PastPose {
   Vec2 position_world;
   double heading_rad = 0;
 };
+// Of the latest ticks: 0.8 s at 50 ms; an older fix is not used.
 inline constexpr std::size_t kPastPoses = 16;
 
 // What fixes say that do not fit, of which one after the other says about the same.

@@ -15,7 +15,7 @@
 
 namespace giveway {
 
-inline constexpr std::size_t kMaxSignals = 32;
+inline constexpr std::size_t kMaxSignals = 32;  // heads in reach at a time
 // Three times the period at which heads speak: two in a row may be lost. A light is no beacon: what
 // it said 300 ms ago still holds, for a plan changes by the second.
 inline constexpr Nanoseconds kSignalAgeLimit{300'000'000};

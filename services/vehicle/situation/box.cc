@@ -63,7 +63,7 @@ double AlongOwnPath(const CarriedPeer& view, const OwnView& s) {
 // Length of own lane needed by this vehicle and all vehicles queued up to the place `along_m`, one
 // behind the other.
 double QueueLength(double along_m, std::span<const PeerView> views, const OwnView& s) {
-  constexpr double kMoreThanClear_m = 0.01;
+  constexpr double kMoreThanClear_m = 0.01;  // so that rounding does not call it blocked again
   double length_m = 0;
   for (const PeerView& view : views) {
     if (!view.leads || AlongOwnPath(view, s) > along_m) continue;

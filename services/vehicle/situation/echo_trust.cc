@@ -84,7 +84,7 @@ bool ShowsMotion(std::size_t sensor, const OwnView& s) {
 
 // True if the source of the echo is surely within radio range: its centre lies behind its shell.
 bool IsInReach(std::size_t sensor, const OwnView& s) {
-  constexpr double kDeepest_m = 1;
+  constexpr double kDeepest_m = 1;  // from shell to centre
   return s.ranges[sensor].range_m + kDeepest_m < s.options.emission_radius_m;
 }
 

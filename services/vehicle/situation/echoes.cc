@@ -39,7 +39,7 @@ Sight Seen(Vec2 to_body, const Cone& cone) {
 // Whether a direction is off a cone's axis by no more than limit_rad. The sine of an angle is less
 // than the angle and its tangent more: what lies between takes the angle itself.
 bool IsWithin(double limit_rad, const Sight& centre, double distance_m, const Cone& cone) {
-  constexpr double kRounding = 1e-9;
+  constexpr double kRounding = 1e-9;  // of products and roots of doubles
   if (limit_rad < 1.5) {
     if (centre.along_m < 0) return false;
     if (centre.across_m > (limit_rad + kRounding) * distance_m) return false;
@@ -61,7 +61,7 @@ double LeastRange(double distance_m, double radius_m, double off_rad) {
 // In front of the body, or at its side: too near to be the echo of something uncertain.
 bool IsBefore(double range_m, double radius_m, double unsure_m, const Sight& centre,
               double distance_m, double cone_rad, const Cone& cone) {
-  constexpr double kUnsure_rad = 0.1;
+  constexpr double kUnsure_rad = 0.1;  // of its bearing
   const double slack_rad = kUnsure_rad + unsure_m / std::max(distance_m, radius_m);
   // The body's nearest point, if the cone held it, settles most without an angle.
   if (range_m < LeastRange(distance_m, radius_m, 0) - unsure_m) return true;
@@ -76,7 +76,7 @@ constexpr double kShows = 1.5;
 // Nearly all that are too far off the axis for a body of this radius to be in the cone, without the
 // root that their distance is: it lies between the greater of two legs and their sum.
 bool IsFarOff(const Sight& centre, double radius_m, double cone_rad) {
-  constexpr double kRounding_m = 1e-6;
+  constexpr double kRounding_m = 1e-6;  // far more than the sums are off, and far less than a body
   const double along_m = Magnitude(centre.along_m);
   const double shows_m = kShows * radius_m + kRounding_m;
   const double least_m = std::max(along_m, centre.across_m);
@@ -235,8 +235,8 @@ namespace {
 // where it is. Imperfect ones hear no face so far off its normal.
 bool IsFrontAtRim(double along_m_s, double driving_m_s, double cosine,
                   const VehicleOptions& options) {
-  constexpr double kLeast =
-      0.6;  // share of the own speed, at a front that is not square to the path
+  // Shares of the own speed: a front that is not square to the path seems slower or faster.
+  constexpr double kLeast = 0.6;
   constexpr double kMost = 1.6;
   if (HasImperfectSonar(options) || cosine <= 0 || cosine > kLooksAhead) return false;
   return along_m_s > kLeast * driving_m_s && along_m_s < kMost * driving_m_s;

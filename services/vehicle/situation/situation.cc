@@ -8,6 +8,7 @@
 namespace giveway {
 namespace {
 
+// What a beacon says of its target: further off it is the direction alone that peers need.
 constexpr double kLongestPath_m = 1000;
 
 // Of the distance between the two centres: only what lies along it counts.
