@@ -51,16 +51,9 @@ std::vector<Problem> AllProblems(const Section& root, const ReadScenario& read) 
   return problems;
 }
 
-}  // namespace
-
-Scenario LoadScenario(const std::string& path, const ScenarioOverrides& overrides) {
-  return LoadScenarioWithFaults(path, overrides).scenario;
-}
-
-ScenarioWithFaults LoadScenarioWithFaults(const std::string& path,
-                                          const ScenarioOverrides& overrides) {
-  const std::string file = ResolveScenario(path);
-  const Section root = ParseText(file, ReadTextFile(file), schema::Scenario::default_instance());
+ScenarioWithFaults Parse(const std::string& file, const std::string& text,
+                         const ScenarioOverrides& overrides) {
+  const Section root = ParseText(file, text, schema::Scenario::default_instance());
   ReadScenario read = ReadFrom(root, overrides);
   if (read.faults) read.faults->name = file;
   CheckStarts(read, "");
@@ -70,6 +63,22 @@ ScenarioWithFaults LoadScenarioWithFaults(const std::string& path,
   CheckStarts(read, fmt::format("with seed {} ", read.scenario.seed));
   ThrowIfAny(root.Problems());
   return {std::move(read.scenario), std::move(read.faults)};
+}
+
+}  // namespace
+
+Scenario ParseScenario(const std::string& name, const std::string& text) {
+  return Parse(name, text, {}).scenario;
+}
+
+Scenario LoadScenario(const std::string& path, const ScenarioOverrides& overrides) {
+  return LoadScenarioWithFaults(path, overrides).scenario;
+}
+
+ScenarioWithFaults LoadScenarioWithFaults(const std::string& path,
+                                          const ScenarioOverrides& overrides) {
+  const std::string file = ResolveScenario(path);
+  return Parse(file, ReadTextFile(file), overrides);
 }
 
 }  // namespace giveway

@@ -14,6 +14,9 @@ namespace giveway {
 // and applies the overrides; the seed moves start poses and cruise speeds. Throws InputError.
 Scenario LoadScenario(const std::string& path, const ScenarioOverrides& overrides);
 
+// The same of a text that is in no file; problems name it `name`.
+Scenario ParseScenario(const std::string& name, const std::string& text);
+
 // A scenario and its own list of faults, for those that carry faults out. The list is checked by
 // LoadScenario too, which leaves it out.
 struct ScenarioWithFaults {

@@ -16,6 +16,7 @@ constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 struct Starts {
   std::vector<StartShape> bodies;  // vehicles, spawn places, obstacles
   std::vector<const Section*> sections;
+  std::vector<bool> stands;  // of each body: an obstacle that never moves
   std::vector<StartLine> walls;
   std::vector<StartLine> doors;
 };
@@ -34,20 +35,22 @@ StartShape ShapeOf(const VehicleOptions& vehicle) {
 
 Starts Gather(const ReadScenario& read) {
   Starts starts;
-  const auto add = [&starts](const StartShape& shape, const Section& section) {
+  const auto add = [&starts](const StartShape& shape, const Section& section, bool stands) {
     starts.bodies.push_back(shape);
     starts.sections.push_back(&section);
+    starts.stands.push_back(stands);
   };
   const Scenario& scenario = read.scenario;
   for (std::size_t i = 0; i < read.vehicles.size(); ++i) {
-    add(ShapeOf(scenario.vehicles[i]), read.vehicles[i]);
+    add(ShapeOf(scenario.vehicles[i]), read.vehicles[i], false);
   }
   for (std::size_t i = 0; i < read.spawns.size(); ++i) {
-    add(ShapeOf(scenario.spawns[i]), read.spawns[i]);
+    add(ShapeOf(scenario.spawns[i]), read.spawns[i], false);
   }
   for (std::size_t i = 0; i < read.obstacles.size(); ++i) {
     const Obstacle& o = scenario.obstacles[i];
-    add({o.shape, o.start_world, o.radius_m, o.box_half_m}, read.obstacles[i]);
+    add({o.shape, o.start_world, o.radius_m, o.box_half_m}, read.obstacles[i],
+        o.waypoints_world.empty());
   }
   for (const Wall& wall : scenario.walls) starts.walls.push_back({wall.from_world, wall.to_world});
   for (const Door& door : scenario.doors) starts.doors.push_back({door.from_world, door.to_world});
@@ -61,15 +64,18 @@ std::vector<Bounds> AllBounds(const std::vector<T>& shapes) {
   return bounds;
 }
 
-// Of each body the first of each kind it overlaps. Exact geometry only where that is still open:
+// Of each body the first of each kind it overlaps. What stands for ever may be one thing in several
+// bodies, such as an L of two boxes, or be part of a wall. Exact geometry only where that is still open:
 // thousands of bodies on one spot are reported as fast as thousands apart.
 std::vector<Overlaps> FindOverlaps(const Starts& starts) {
   std::vector<Overlaps> found(starts.bodies.size());
   const auto meet_bodies = [&](std::size_t a, std::size_t b) {
+    if (starts.stands[a] && starts.stands[b]) return;
     if (a < found[b].body && Overlap(starts.bodies[a], starts.bodies[b])) found[b].body = a;
   };
   const auto meet_wall = [&](std::size_t body, std::size_t wall) {
     std::size_t& first = found[body].wall;
+    if (starts.stands[body]) return;
     if (wall < first && Overlap(starts.bodies[body], starts.walls[wall])) first = wall;
   };
   const auto meet_door = [&](std::size_t body, std::size_t door) {

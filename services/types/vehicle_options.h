@@ -50,6 +50,8 @@ struct BraitenbergWeights {
   double far_gate_m = 1.0;
   std::array<double, kSensorCount> left{};  // rad/s per activation
   std::array<double, kSensorCount> right{};
+
+  bool operator==(const BraitenbergWeights&) const = default;
 };
 
 // Vehicle 2a as the lecture prints it: excites the wheel of the same side. Far gate 1.0 m.

@@ -32,6 +32,14 @@ std::string_view Name(Invariant invariant) {
   return kNames[static_cast<std::size_t>(invariant)];
 }
 
+std::optional<Invariant> InvariantNamed(std::string_view name) {
+  for (std::size_t i = 0; i < kInvariantCount; ++i) {
+    const auto invariant = static_cast<Invariant>(i);
+    if (Name(invariant) == name) return invariant;
+  }
+  return std::nullopt;
+}
+
 InvariantSet RequiredInvariants() {
   InvariantSet required;
   for (std::size_t i = 0; i <= static_cast<std::size_t>(Invariant::kProgress); ++i) required.set(i);

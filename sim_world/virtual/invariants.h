@@ -42,6 +42,7 @@ enum class Invariant : std::uint8_t {
 };
 inline constexpr std::size_t kInvariantCount = 14;
 std::string_view Name(Invariant invariant);
+std::optional<Invariant> InvariantNamed(std::string_view name);  // empty if there is none
 
 // By number of the invariant.
 using InvariantSet = std::bitset<kInvariantCount>;

@@ -1,4 +1,5 @@
-// Writes a scenario as a file: what generators make and `fleetctl shrink` leaves of it.
+// Writes a scenario as a file: what generators make and `fleetctl shrink` leaves of it. All of it
+// but its own list of faults, which no Scenario holds.
 #pragma once
 
 #include <string>
@@ -7,12 +8,11 @@
 
 namespace giveway {
 
-// The scenario as a file that reads back as the same, below `comment` (without the marks). Throws
-// InputError where it holds what is not written: places, obstacles, doors, signals, and profiles
-// other than the P3-DX's.
+// The scenario as a file, below `comment` (without the marks).
 std::string WriteScenario(const Scenario& scenario, const std::string& comment);
 
-// The values as a file holds them: millimetres, thousandths of degrees and of metres a second.
-Scenario RoundedAsWritten(Scenario scenario);
+// The scenario as it reads back, with seed 0: the last digit of an angle may differ. Throws
+// InputError where a scenario that was made breaks a rule of those that are read.
+Scenario ReadBack(const Scenario& scenario);
 
 }  // namespace giveway

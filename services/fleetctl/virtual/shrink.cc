@@ -43,13 +43,16 @@ std::string Comment(const CaseMaker& maker, const ShrinkOptions& options, const 
       "Left of {} with seed {} after {} tries: breaks {} at tick {}.\nReplay:\n"
       "  fleetctl virtual {} --seed 0{}\n",
       maker.Name(), options.seed, shrunk.attempts, sim::Name(shrunk.violation.invariant),
-      Number(shrunk.violation.tick), file, ReplayFlags(shrunk.made.plan, FaultFileOf(file)));
+      Number(shrunk.violation.tick), file, ReplayFlags(shrunk.made, FaultFileOf(file)));
 }
 
 // An expectation names vehicles: a smaller run that also misses it would show nothing.
-int ReportNothingBreaks(const CaseMaker& maker, std::uint32_t seed, const VirtualCase& made) {
-  fmt::print("{} with seed {} breaks no invariant\n", maker.Name(), seed);
-  if (!maker.HasExpectations()) return 0;
+int ReportNothingBreaks(const CaseMaker& maker, const ShrinkOptions& options,
+                        const VirtualCase& made) {
+  const std::string which(options.invariant ? sim::Name(*options.invariant) : "no invariant");
+  fmt::print("{} with seed {} {} {}\n", maker.Name(), options.seed,
+             options.invariant ? "does not break" : "breaks", which);
+  if (options.invariant || !maker.HasExpectations()) return 0;
   const std::string unmet = sim::RunVirtually(made.scenario, made.plan).unmet;
   if (unmet.empty()) return 0;
   fmt::print(stderr, "it misses what it expects, which is not shrunk: {}\n", unmet);
@@ -58,7 +61,8 @@ int ReportNothingBreaks(const CaseMaker& maker, std::uint32_t seed, const Virtua
 
 }  // namespace
 
-std::string ReplayFlags(const sim::VirtualPlan& plan, const std::string& fault_file) {
+std::string ReplayFlags(const VirtualCase& made, const std::string& fault_file) {
+  const sim::VirtualPlan& plan = made.plan;
   const sim::RadioSettings& radio = plan.radio;
   std::string flags;
   const auto add = [&](const char* flag, double value) {
@@ -78,6 +82,7 @@ std::string ReplayFlags(const sim::VirtualPlan& plan, const std::string& fault_f
   if (radio.loops_back) flags += " --loopback";
   if (!plan.schedule.empty()) flags += " --faults " + fault_file;
   if (!flags.empty()) flags += fmt::format(" --radio-seed {}", plan.seed);
+  if (made.scenario.seed != 0) flags += fmt::format(" --sensor-seed {}", made.scenario.seed);
   for (const sim::ProcessFault& fault : plan.faults) {
     flags += fmt::format(" --fault {}:{}@{}", Word(fault.kind), Number(fault.vehicle), fault.at_s);
     if (fault.kind != sim::ProcessFaultKind::kCrash) flags += fmt::format("+{}", fault.for_s);
@@ -94,14 +99,17 @@ int RunShrink(const ShrinkOptions& options) {
   CheckWritable(file);
   if (maker.HasFaults()) CheckWritable(FaultFileOf(file));
   VirtualCase failing = maker.Make(options.seed);
-  WriteScenario(failing.scenario, "");  // throws now rather than after a minute's work
+  ReadBack(failing.scenario);  // throws now rather than after a minute's work
   const Interrupts interrupts(Silence::kComputes);
-  std::optional<Shrunk> shrunk = Shrink(failing, ShowProgress);
+  std::optional<Shrunk> shrunk = Shrink(failing, ShowProgress, options.invariant);
   if (::isatty(STDERR_FILENO) == 1) std::fputs("\r\x1b[K", stderr);
-  if (!shrunk) return ReportNothingBreaks(maker, options.seed, failing);
+  if (!shrunk) return ReportNothingBreaks(maker, options, failing);
   Scenario& scenario = shrunk->made.scenario;
   scenario.name = fmt::format("{}_{}", maker.Name(), options.seed);
   WriteFile(file, WriteScenario(scenario, Comment(maker, options, *shrunk, file)));
+  if (!shrunk->as_file) {
+    fmt::print(stderr, "{}: with its digits the run is another, which need not break it\n", file);
+  }
   const faults::Schedule& schedule = shrunk->made.plan.schedule;
   if (!schedule.empty()) WriteFile(FaultFileOf(file), faults::AsTextproto(schedule));
   fmt::print("{}: {} of {} vehicles, {} of {} scheduled faults, {:.0f} s, breaks {}\n", file,
@@ -109,7 +117,7 @@ int RunShrink(const ShrinkOptions& options) {
              failing.plan.schedule.size(), scenario.duration_s,
              sim::Name(shrunk->violation.invariant));
   fmt::print("fleetctl virtual {} --seed 0{}\n", file,
-             ReplayFlags(shrunk->made.plan, FaultFileOf(file)));
+             ReplayFlags(shrunk->made, FaultFileOf(file)));
   return 1;
 }
 

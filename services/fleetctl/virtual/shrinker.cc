@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "services/config/problem.h"
+#include "services/config/writing/scenario_rounding.h"
 #include "services/config/writing/scenario_write.h"
 
 namespace giveway::fleetctl {
@@ -37,6 +39,24 @@ void RemoveVehicles(std::size_t first, std::size_t count, VirtualCase* made) {
   std::erase_if(made->scenario.expect.halted, is_gone);
 }
 
+// A signal head that was removed neither fails nor falls silent.
+void RemoveSignal(std::size_t at, Scenario* scenario) {
+  const auto removed = scenario->signals.begin() + static_cast<std::ptrdiff_t>(at);
+  std::erase_if(scenario->faults, [&](const PlannedFault& fault) {
+    return fault.kind != FaultKind::kKill && fault.signal == removed->id;
+  });
+  scenario->signals.erase(removed);
+}
+
+// Empty where a made scenario breaks a rule of those that are read, as by rounding.
+std::optional<Scenario> AsRead(const Scenario& scenario) {
+  try {
+    return ReadBack(scenario);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 class Shrinker {
  public:
   Shrinker(VirtualCase failing, sim::Invariant broken, const ShrinkProgress& progress)
@@ -44,7 +64,8 @@ class Shrinker {
 
   // Any removal may make further ones possible.
   void Run() {
-    TryRounded();
+    as_file_ = TryAsFile();
+    if (!as_file_) Try(best_);
     bool smaller = true;
     while (smaller && !stopped_) {
       smaller = LeaveOutVehicles();
@@ -52,11 +73,14 @@ class Shrinker {
       smaller = LeaveOut(&VirtualCase::plan, &sim::VirtualPlan::faults) || smaller;
       smaller = LeaveOut(&VirtualCase::scenario, &Scenario::faults) || smaller;
       smaller = LeaveOut(&VirtualCase::scenario, &Scenario::walls) || smaller;
+      smaller = LeaveOut(&VirtualCase::scenario, &Scenario::obstacles) || smaller;
+      smaller = LeaveOut(&VirtualCase::scenario, &Scenario::doors) || smaller;
+      smaller = LeaveOutSignals() || smaller;
       smaller = CalmRadio() || smaller;
       smaller = CutTime() || smaller;
     }
   }
-  Shrunk Result() const { return {best_, violation_, tries_}; }
+  Shrunk Result() const { return {best_, violation_, tries_, as_file_}; }
 
  private:
   // Keeps the candidate if the invariant breaks in it too.
@@ -74,11 +98,21 @@ class Shrinker {
     return true;
   }
 
-  // The file has rounded numbers; if these do not fail, it will have all digits.
-  void TryRounded() {
-    VirtualCase rounded = best_;
-    rounded.scenario = RoundedAsWritten(rounded.scenario);
-    if (!Try(rounded)) Try(best_);
+  // As its file is read: in few digits and with the sensors' draws of seed 0, or with what it needs
+  // of all digits and of the seed that it failed with.
+  bool TryAsFile() {
+    const std::uint32_t seed = best_.scenario.seed;
+    for (const Scenario& scenario : {Rounded(best_.scenario), best_.scenario}) {
+      const std::optional<Scenario> read = AsRead(scenario);
+      if (!read) continue;
+      VirtualCase candidate = best_;
+      candidate.scenario = *read;
+      candidate.scenario.seed = 0;
+      if (Try(candidate)) return true;
+      candidate.scenario.seed = seed;
+      if (seed != 0 && Try(candidate)) return true;
+    }
+    return false;
   }
 
   // Halves first, then quarters, down to single ones (delta debugging, Zeller 1999).
@@ -121,6 +155,18 @@ class Shrinker {
       VirtualCase candidate = best_;
       auto& elements = (candidate.*owner).*list;
       elements.erase(elements.begin() + static_cast<std::ptrdiff_t>(i));
+      const bool fails = Try(candidate);
+      smaller = smaller || fails;
+      if (!fails) ++i;
+    }
+    return smaller;
+  }
+
+  bool LeaveOutSignals() {
+    bool smaller = false;
+    for (std::size_t i = 0; i < best_.scenario.signals.size();) {
+      VirtualCase candidate = best_;
+      RemoveSignal(i, &candidate.scenario);
       const bool fails = Try(candidate);
       smaller = smaller || fails;
       if (!fails) ++i;
@@ -175,14 +221,21 @@ class Shrinker {
   sim::Violation violation_;
   std::uint32_t tries_ = 0;
   bool stopped_ = false;
+  bool as_file_ = false;
 };
 
 }  // namespace
 
-std::optional<Shrunk> Shrink(const VirtualCase& failing, const ShrinkProgress& progress) {
-  const sim::VirtualOutcome outcome = sim::RunVirtually(failing.scenario, failing.plan);
-  if (outcome.first.empty()) return std::nullopt;
-  Shrinker shrinker(failing, outcome.first.front().invariant, progress);
+std::optional<Shrunk> Shrink(const VirtualCase& failing, const ShrinkProgress& progress,
+                             std::optional<sim::Invariant> which) {
+  VirtualCase judged = failing;
+  if (which) judged.plan.also_required |= 1U << static_cast<unsigned>(*which);
+  const sim::VirtualOutcome outcome = sim::RunVirtually(judged.scenario, judged.plan);
+  const auto broken = std::ranges::find_if(outcome.first, [&](const sim::Violation& violation) {
+    return !which || violation.invariant == *which;
+  });
+  if (broken == outcome.first.end()) return std::nullopt;
+  Shrinker shrinker(judged, broken->invariant, progress);
   shrinker.Run();
   return shrinker.Result();
 }

@@ -1,5 +1,5 @@
-// Makes a failing virtual run small: removes vehicles, faults, walls and radio faults, and shortens
-// the time, as long as the same invariant breaks.
+// Makes a failing virtual run small: removes vehicles, faults, bodies, walls, doors, signal heads
+// and radio faults, and shortens the time, as long as the same invariant breaks.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,15 @@ struct Shrunk {
   VirtualCase made;
   sim::Violation violation;  // the first of its invariant in the remaining run
   std::uint32_t attempts = 0;
+  // It breaks as its file is read, too: but for the last digits of angles that is the same.
+  bool as_file = false;
 };
 
 // Called before every attempt. False: stop, and take the result so far.
 using ShrinkProgress = std::function<bool(const VirtualCase& smallest, std::uint32_t attempts)>;
 
-// nullopt if no invariant breaks in the run.
-std::optional<Shrunk> Shrink(const VirtualCase& failing, const ShrinkProgress& progress);
+// By the invariant `which`, or that which breaks first. nullopt if it holds.
+std::optional<Shrunk> Shrink(const VirtualCase& failing, const ShrinkProgress& progress,
+                             std::optional<sim::Invariant> which = std::nullopt);
 
 }  // namespace giveway::fleetctl

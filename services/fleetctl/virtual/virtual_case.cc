@@ -193,6 +193,7 @@ Scenario CaseMaker::MakeScenario(std::uint32_t seed, Random* dice) const {
     scenario.seed = seed;
     PerturbBySeed(&scenario);
   }
+  scenario.seed = options_.sensor_seed.value_or(scenario.seed);  // nothing is moved any more
   if (!loaded_ && options_.behaviour) {
     for (VehicleOptions& vehicle : scenario.vehicles) {
       vehicle.behaviour = *options_.behaviour;

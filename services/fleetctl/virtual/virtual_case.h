@@ -49,7 +49,8 @@ struct CaseOptions {
   std::vector<sim::ProcessFault> faults;  // in addition to drawn ones
   std::string fault_file;         // a file or a shipped one, in addition to the scenario's own list
   bool skip_unsupported = false;  // of both lists those that a virtual run cannot inject
-  std::optional<std::uint32_t> radio_seed;  // absent: the seed
+  std::optional<std::uint32_t> radio_seed;   // absent: the seed
+  std::optional<std::uint32_t> sensor_seed;  // of what wheels and sensors draw; absent: the seed
 };
 
 struct VirtualCase {

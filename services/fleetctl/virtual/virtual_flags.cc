@@ -285,6 +285,8 @@ void AddCaseFlags(CLI::App* verb, CaseOptions* made_by) {
   AddRobotFlags(verb, made_by);
   AddPoseFlags(verb, made_by);
   verb->add_option("--radio-seed", made_by->radio_seed, "Of the radio's draws; default the seed");
+  verb->add_option("--sensor-seed", made_by->sensor_seed,
+                   "Of what wheels and sensors draw; default the seed");
   AddRadioFlags(verb, made_by);
   AddFaultFlags(verb, made_by);
   AddJudgeFlag(verb, made_by);

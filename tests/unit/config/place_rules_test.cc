@@ -143,13 +143,22 @@ TEST(PlaceRules, NothingStandsInADoorwayAtTheStart) {
 TEST(PlaceRules, ObstaclesAndSpawnPlacesKeepClearOfAllOthers) {
   EXPECT_THAT(With("obstacle { disc_radius_m: 0.3 start { x_m: -4 y_m: 0.5 } }"),
               ElementsAre(Is(17, "obstacle[0].start", "obstacle[0] overlaps vehicle 1")));
-  EXPECT_THAT(With("obstacle { disc_radius_m: 0.3 start { x_m: 4 y_m: 2.8 } }"),
+  EXPECT_THAT(With("obstacle { disc_radius_m: 0.3 start { x_m: 4 y_m: 2.8 } "
+                   "waypoint { x_m: 4 y_m: 1 } speed_m_s: 0.1 }"),
               ElementsAre(Is(17, "obstacle[0].start", "obstacle[0] overlaps wall[0]")));
   EXPECT_THAT(With("spawn { start { x_m: 0 y_m: -3.4 heading_deg: 0 } cruise_m_s: 0.3 }"),
               ElementsAre(Is(17, "spawn[0].start", "spawn[0] overlaps vehicle 2")));
   EXPECT_THAT(With("spawn { start { x_m: 7 y_m: 0 heading_deg: 0 } cruise_m_s: 0.3 }"
                    "obstacle { disc_radius_m: 0.3 start { x_m: 7 y_m: 0.5 } }"),
               ElementsAre(Is(17, "obstacle[0].start", "obstacle[0] overlaps spawn[0]")));
+}
+
+TEST(PlaceRules, ObstaclesThatStandMayOverlapEachOtherAndWalls) {
+  EXPECT_THAT(With("obstacle { disc_radius_m: 0.3 start { x_m: 4 y_m: 2.8 } }"), IsEmpty());
+  const std::string box = "obstacle { disc_radius_m: 0.3 start { x_m: 7 y_m: 0 } ";
+  EXPECT_THAT(With(box + "}" + box + "}"), IsEmpty());
+  EXPECT_THAT(With(box + "}" + box + "waypoint { x_m: 9 y_m: 0 } speed_m_s: 0.1 }"),
+              ElementsAre(Is(17, "obstacle[1].start", "obstacle[1] overlaps obstacle[0]")));
 }
 
 TEST(PlaceRules, BoxesAreComparedAsBoxes) {

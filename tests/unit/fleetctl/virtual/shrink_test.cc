@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "services/config/scenario_file.h"
+#include "services/config/writing/scenario_rounding.h"
 #include "services/config/writing/scenario_write.h"
 #include "services/fleetctl/virtual/shrinker.h"
 #include "sim_world/virtual/generators.h"
@@ -74,6 +75,68 @@ TEST(Shrinking, TheFileFailsAsTheRunDid) {
   EXPECT_EQ(sim::RunVirtually(read, shrunk->made.plan).hash, before.hash);
 }
 
+// Whatever robots, ultrasonics, errors of wheels and bodies a seed draws: the file is the same run.
+class FileOfAGenerator : public testing::TestWithParam<const char*> {};
+
+TEST_P(FileOfAGenerator, IsTheRunThatWasWritten) {
+  CaseOptions options{.scenario = GetParam(), .vehicles = WholeRange{4, 4}};
+  options.fleet.mixed_robots = true;
+  options.fleet.tiers = {SonarTier::kIdeal, SonarTier::kTypical, SonarTier::kP3dx};
+  options.fleet.most_slip = 0.02;
+  options.fleet.draws_pose_fix = true;
+  options.fleet.most_wheel_error = 0.02;
+  const CaseMaker maker(options);
+  for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+    VirtualCase made = maker.Make(seed);
+    made.scenario = Rounded(made.scenario);
+    made.scenario.duration_s = 10;
+    VirtualCase read{ReadBack(made.scenario), made.plan};
+    EXPECT_EQ(read.scenario.seed, 0U);
+    read.scenario.seed = made.scenario.seed;
+    EXPECT_EQ(sim::RunVirtually(read.scenario, read.plan).hash,
+              sim::RunVirtually(made.scenario, made.plan).hash)
+        << "seed " << seed;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, FileOfAGenerator,
+                         testing::Values("crossing", "roundabout", "corridor", "swarm", "merge",
+                                         "convoy", "warehouse", "door", "one_lane", "antipodal",
+                                         "parking", "shared_goal", "mixed_yard"),
+                         [](const auto& tested) { return std::string(tested.param); });
+
+// It fails as the file alone: with the draws of seed 0, or with those that it had.
+TEST(Shrinking, LeavesAFileThatFailsWithTheDrawsItNames) {
+  VirtualCase made = HeadOnAmongOthers();
+  made.scenario.seed = 9;
+  const auto shrunk = Shrink(made, kGoOn);
+  ASSERT_TRUE(shrunk);
+  EXPECT_TRUE(shrunk->as_file);
+  EXPECT_EQ(shrunk->made.scenario.seed, 0U);
+  made.scenario.vehicles[4].profile.wheel_slip = 0.1;
+  const auto drawn = Shrink(made, kGoOn);
+  ASSERT_TRUE(drawn);
+  EXPECT_TRUE(drawn->as_file);
+}
+
+// None of these has to do with it.
+TEST(Shrinking, LeavesOutBodiesDoorsAndLights) {
+  VirtualCase made = HeadOnAmongOthers();
+  Scenario& scenario = made.scenario;
+  scenario.obstacles = {{.start_world = {{30, 0}, 0}}, {.start_world = {{35, 0}, 0}}};
+  scenario.doors = {{.from_world = {40, 0}, .to_world = {41, 0}}};
+  scenario.signals = {{.id = SignalId{4}, .line_from_world = {50, -1}, .line_to_world = {50, 1}}};
+  scenario.faults = {{.kind = FaultKind::kSignalDark, .at_s = 1, .signal = SignalId{4}}};
+  const auto shrunk = Shrink(made, kGoOn);
+  ASSERT_TRUE(shrunk);
+  const Scenario& left = shrunk->made.scenario;
+  EXPECT_EQ(left.vehicles.size(), 2U);
+  EXPECT_TRUE(left.obstacles.empty());
+  EXPECT_TRUE(left.doors.empty());
+  EXPECT_TRUE(left.signals.empty());
+  EXPECT_TRUE(left.faults.empty());
+}
+
 faults::Fault Scheduled(faults::Kind kind, std::uint32_t vehicle, std::uint32_t nth) {
   return {.rule = "rule",
           .nth = nth,
@@ -119,6 +182,14 @@ TEST(Shrinking, TakesNothingFromARunThatHolds) {
   EXPECT_FALSE(Shrink(fine, kGoOn));
 }
 
+// Two break, and another than the first is asked for.
+TEST(Shrinking, KeepsTheInvariantThatIsAskedFor) {
+  const auto shrunk = Shrink(HeadOnAmongOthers(), kGoOn, sim::Invariant::kClearance);
+  ASSERT_TRUE(shrunk);
+  EXPECT_EQ(shrunk->violation.invariant, sim::Invariant::kClearance);
+  EXPECT_FALSE(Shrink(HeadOnAmongOthers(), kGoOn, sim::Invariant::kRedLight));
+}
+
 TEST(Shrinking, StopsWhenItIsToldTo) {
   const auto shrunk =
       Shrink(HeadOnAmongOthers(),
@@ -128,24 +199,30 @@ TEST(Shrinking, StopsWhenItIsToldTo) {
 }
 
 TEST(ReplayFlags, NameEverythingThatGoesWrong) {
-  sim::VirtualPlan plan;
-  EXPECT_EQ(ReplayFlags(plan, "f"), "");
-  plan.seed = 17;
-  plan.radio.loss = 0.125;
-  plan.radio.jitter = Nanoseconds(60'000'000);
-  plan.faults = {
+  VirtualCase made;
+  EXPECT_EQ(ReplayFlags(made, "f"), "");
+  made.plan.seed = 17;
+  made.plan.radio.loss = 0.125;
+  made.plan.radio.jitter = Nanoseconds(60'000'000);
+  made.plan.faults = {
       {.kind = sim::ProcessFaultKind::kRestart, .vehicle = VehicleId{3}, .at_s = 4.5, .for_s = 0.5},
       {.kind = sim::ProcessFaultKind::kCrash, .vehicle = VehicleId{2}, .at_s = 8}};
-  EXPECT_EQ(ReplayFlags(plan, "f"),
+  EXPECT_EQ(ReplayFlags(made, "f"),
             " --loss 12.5 --jitter 60 --radio-seed 17 --fault restart:3@4.5+0.5 --fault crash:2@8");
 }
 
 // The draws of a fault of the world depend on the seed too.
 TEST(ReplayFlags, NameTheFaultFileAndTheSeed) {
-  sim::VirtualPlan plan;
-  plan.seed = 17;
-  plan.schedule = {Scheduled(faults::Kind::kSonarGarbage, 1, 0)};
-  EXPECT_EQ(ReplayFlags(plan, "f"), " --faults f --radio-seed 17");
+  VirtualCase made;
+  made.plan.seed = 17;
+  made.plan.schedule = {Scheduled(faults::Kind::kSonarGarbage, 1, 0)};
+  EXPECT_EQ(ReplayFlags(made, "f"), " --faults f --radio-seed 17");
+}
+
+TEST(ReplayFlags, NameTheSeedOfWhatSensorsDraw) {
+  VirtualCase made;
+  made.scenario.seed = 5;
+  EXPECT_EQ(ReplayFlags(made, "f"), " --sensor-seed 5");
 }
 
 }  // namespace
