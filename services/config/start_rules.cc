@@ -65,8 +65,8 @@ std::vector<Bounds> AllBounds(const std::vector<T>& shapes) {
 }
 
 // Of each body the first of each kind it overlaps. What stands for ever may be one thing in several
-// bodies, such as an L of two boxes, or be part of a wall. Exact geometry only where that is still open:
-// thousands of bodies on one spot are reported as fast as thousands apart.
+// bodies, such as an L of two boxes, or be part of a wall. Exact geometry only where that is still
+// open: thousands of bodies on one spot are reported as fast as thousands apart.
 std::vector<Overlaps> FindOverlaps(const Starts& starts) {
   std::vector<Overlaps> found(starts.bodies.size());
   const auto meet_bodies = [&](std::size_t a, std::size_t b) {

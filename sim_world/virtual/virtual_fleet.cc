@@ -75,14 +75,24 @@ void VirtualFleet::CarryOutFaults() {
     if (!due.done) CarryOut(&due);
   }
   while (next_scheduled_ < scheduled_.size()) {
-    CarryOut(&scheduled_[next_scheduled_]);
-    if (!scheduled_[next_scheduled_].done) break;
+    DueFault& due = scheduled_[next_scheduled_];
+    if (run_.TimeSeconds() < due.fault.at_s) break;
+    EndPauseOf(due.member);
+    CarryOut(&due);
     ++next_scheduled_;
   }
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const std::uint32_t back_at = members_[i].back_at_tick;
     if (back_at != 0 && Number(run_.Now()) >= back_at) BringBack(i);
   }
+}
+
+// Two faults of a schedule exclude each other on one process: one that started before is over,
+// though in whole ticks it may have one to go.
+void VirtualFleet::EndPauseOf(std::size_t index) {
+  const Member& member = members_[index];
+  const bool is_over = member.back_at_tick != 0 && Number(run_.Now()) + 1 >= member.back_at_tick;
+  if (member.process == Process::kPaused && is_over) BringBack(index);
 }
 
 void VirtualFleet::CarryOut(DueFault* due) {

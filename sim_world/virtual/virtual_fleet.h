@@ -66,6 +66,7 @@ class VirtualFleet {
   };
 
   void CarryOutFaults();
+  void EndPauseOf(std::size_t index);
   void CarryOut(DueFault* due);
   bool IsThere(const VehicleOptions& options);
   bool Skips(const Member& member) const;

@@ -91,6 +91,20 @@ TEST(VirtualFaults, AHungVehicleAnswersNothingForItsTime) {
   EXPECT_TRUE(fleet.Answered(1));
 }
 
+// A soak of rush_hour: hung until 5183.191 s, paused from 5183.208 s on, both in one tick of 50 ms.
+// And one whose time, in whole ticks, is longer than the gap to the next.
+TEST(VirtualFaults, APauseRightAfterAnotherIsCarriedOut) {
+  for (const double second_at_s : {4.49, 4.508}) {
+    const faults::Fault first = FaultFor(Kind::kHang, 4.01, 0.46);
+    const faults::Fault second = FaultFor(Kind::kPause, second_at_s, 0.5);
+    VirtualFleet fleet(TwoOnARoad(), Planned({first, second}));
+    AdvanceBy(&fleet, 99);
+    EXPECT_FALSE(fleet.Answered(1)) << second_at_s;
+    AdvanceBy(&fleet, 3);
+    EXPECT_TRUE(fleet.Answered(1)) << second_at_s;
+  }
+}
+
 TEST(VirtualFaults, ASlowVehicleAnswersItsShareOfTicks) {
   faults::Fault fault = FaultFor(Kind::kSlow, 2, 5);
   fault.parameters.share = 0.3;
