@@ -29,6 +29,19 @@ bool ShowProgress(const VirtualCase& smallest, std::uint32_t attempts) {
   return Interrupts::Count() == 0;
 }
 
+// What is else only counted, and is required here.
+std::string JudgeFlag(const sim::VirtualPlan& plan) {
+  const sim::InvariantSet judged =
+      sim::InvariantSet(plan.also_required) & ~sim::RequiredInvariants();
+  std::string flag;
+  for (std::size_t i = 0; i < sim::kInvariantCount; ++i) {
+    if (!judged.test(i)) continue;
+    flag += flag.empty() ? " --judge " : ",";
+    flag += sim::Name(static_cast<sim::Invariant>(i));
+  }
+  return flag;
+}
+
 // The name NAME.faults.textproto for NAME.textproto.
 std::string FaultFileOf(const std::string& file) {
   constexpr std::string_view kEnding = ".textproto";
@@ -87,7 +100,7 @@ std::string ReplayFlags(const VirtualCase& made, const std::string& fault_file) 
     flags += fmt::format(" --fault {}:{}@{}", Word(fault.kind), Number(fault.vehicle), fault.at_s);
     if (fault.kind != sim::ProcessFaultKind::kCrash) flags += fmt::format("+{}", fault.for_s);
   }
-  return flags;
+  return flags + JudgeFlag(plan);
 }
 
 int RunShrink(const ShrinkOptions& options) {

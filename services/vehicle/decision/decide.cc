@@ -6,6 +6,7 @@
 #include "services/vehicle/decision/lecture.h"
 #include "services/vehicle/decision/steering.h"
 #include "services/vehicle/decision/turn_room.h"
+#include "services/vehicle/situation/claim.h"
 #include "services/vehicle/situation/encounter.h"
 
 namespace giveway {
@@ -41,15 +42,24 @@ std::optional<TurnLimit> TurnTooFast(const Steering& steering, const Situation& 
   return turn && turn->max_speed_m_s < s.own.speed_m_s ? turn : std::nullopt;
 }
 
+// Whether it turns faster than the noise of its encoders shows of one that drives straight on.
+bool SurelyTurns(const Situation& s) {
+  constexpr double kOfBothRims = 1.4142135623730951;  // two independent errors
+  const RobotModel& profile = s.own.options.profile;
+  const double noise_m_s = kOfBothRims * profile.encoder_noise * Magnitude(s.own.speed_m_s);
+  return Magnitude(s.own.turn_rad_s) * profile.drive.axle_m > kSigmas * noise_m_s;
+}
+
 // True if it had better come out of a turn than stand as soon as it can: with brakes weaker than
 // the motors it turns far until it stands, and the rules measure how far is free straight ahead.
-// Where peers count on its braking, it brakes.
+// Where peers count on its braking, it brakes. A turn that may be noise is none: one rim and then
+// the other would not brake, tick by tick, and both by half as much as they can.
 bool Straightens(const Decision& decision, const Situation& s) {
   const RobotModel& profile = s.own.options.profile;
   if (profile.acceleration_m_s2 <= profile.deceleration_m_s2) return false;
   if (s.own.options.behaviour != Behaviour::kCooperative) return false;
   if (decision.rule != Rule::kObstacle && decision.rule != Rule::kObject) return false;
-  return OnlyObstaclesSlow(s);
+  return SurelyTurns(s) && OnlyObstaclesSlow(s);
 }
 
 // Drives to the goal no faster than `limit`, slowing so that it can stop there.

@@ -216,6 +216,19 @@ TEST(Steering, StraightensOnlyWithWeakBrakesAndWhereNoPeerCountsOnThem) {
   EXPECT_LT(TargetInATurn(PioneerP3dx(), std::nullopt).left_rad_s, 2);
 }
 
+// From door 1411 of mixed fleets, a robot whose encoders are 1.7 % off each tick, and whose brakes
+// take less than that off its speed: it took one rim and then the other for the slower one, which
+// kept its speed, braked by half as much as it can, and drove into the end of a wall.
+TEST(Steering, ATurnThatNoiseMayBeKeepsNoRimFromBraking) {
+  RobotModel weak = PioneerP3dx();
+  weak.acceleration_m_s2 = 2;
+  weak.deceleration_m_s2 = 0.2;
+  weak.encoder_noise = 0.02;  // it turns five times as fast as that shows
+  EXPECT_NEAR(TargetInATurn(weak, std::nullopt).left_rad_s, 3, 1e-9);
+  weak.encoder_noise = 0.1;
+  EXPECT_LT(TargetInATurn(weak, std::nullopt).left_rad_s, 2);
+}
+
 // A wall near the left shoulder, at the range its cone reports; the goal is straight ahead. The
 // echo stays the same while the vehicle turns: it is set once.
 TEST(Steering, WhatStopsAnAimlessVehicleIsTurnedAwayFrom) {

@@ -219,6 +219,15 @@ TEST(ReplayFlags, NameTheFaultFileAndTheSeed) {
   EXPECT_EQ(ReplayFlags(made, "f"), " --faults f --radio-seed 17");
 }
 
+TEST(ReplayFlags, NameWhatIsElseOnlyCounted) {
+  VirtualCase made;
+  const auto bit = [](sim::Invariant invariant) { return 1U << static_cast<unsigned>(invariant); };
+  made.plan.also_required = bit(sim::Invariant::kContact);
+  EXPECT_EQ(ReplayFlags(made, "f"), "");
+  made.plan.also_required |= bit(sim::Invariant::kClearance) | bit(sim::Invariant::kDelay);
+  EXPECT_EQ(ReplayFlags(made, "f"), " --judge clearance,delay");
+}
+
 TEST(ReplayFlags, NameTheSeedOfWhatSensorsDraw) {
   VirtualCase made;
   made.scenario.seed = 5;
