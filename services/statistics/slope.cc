@@ -144,11 +144,14 @@ std::optional<Slope> TheilSen(std::span<const Sample> all) {
 }
 
 bool GrowsThroughout(std::span<const Sample> samples) {
+  constexpr double kStandsStill = 1.0 / 8;  // of the mean rise
   if (samples.size() < kLeastSamples) return false;
   const std::vector<Sample> medians = BlockMedians(samples, kGrowthRuns);
-  return std::ranges::adjacent_find(medians, [](const Sample& a, const Sample& b) {
-           return b.value <= a.value;
-         }) == medians.end();
+  const double all = medians.back().value - medians.front().value;
+  const double least = kStandsStill * all / static_cast<double>(kGrowthRuns - 1);
+  return all > 0 && std::ranges::adjacent_find(medians, [least](const Sample& a, const Sample& b) {
+                      return b.value - a.value < least;
+                    }) == medians.end();
 }
 
 bool IsLeak(const Slope& slope, double least_per_hour) {

@@ -50,8 +50,9 @@ inline constexpr double kLeastLeakBytes = 64 * 1024;
 inline constexpr double kLeastLeakPieces = 1;
 inline constexpr double kLeastLeakProcessors = 0.05;
 
-// Of so many runs of neighbours of nearly equal length each has a higher median than the one
-// before: what grows never stands still. What fills up, such as caches and pools, does.
+// Of so many runs of neighbours of nearly equal length each has a median above that of the one
+// before, by at least an eighth of what it rises on average: what grows never stands still. What
+// fills up, such as caches and pools, does, or nearly.
 inline constexpr std::size_t kGrowthRuns = 8;
 bool GrowsThroughout(std::span<const Sample> samples);
 

@@ -144,6 +144,24 @@ TEST(Growth, IsInEachPartOrNotThroughout) {
   EXPECT_FALSE(GrowsThroughout(EachSecond(19, [](double t) { return t; })));
 }
 
+// The heap of vehicle 11 in half an hour of everything, in kB, every 16 s of its third life: it
+// fills up in steps, as peers and worlds come back, and between them it rises by next to nothing.
+TEST(Growth, OfNextToNothingIsStandingStill) {
+  const std::vector<double> heap_kb = {
+      6582, 6586, 6622, 6650, 6666, 6666, 6666, 6675, 6675, 6675, 6675, 6675, 6692, 6701, 6751,
+      6853, 6856, 6857, 6857, 6857, 6856, 6859, 6860, 6860, 6860, 6861, 6861, 6952, 6960, 6980,
+      7003, 7005, 7006, 7022, 7023, 7048, 7048, 7059, 7060, 7060, 7067, 7068, 7076, 7076, 7101,
+      7116, 7121, 7121, 7122, 7121, 7121, 7121, 7121, 7122, 7129, 7129, 7130, 7130, 7139, 7267};
+  std::vector<Sample> samples;
+  for (const double kb : heap_kb)
+    samples.push_back({16.0 * static_cast<double>(samples.size()), 1000 * kb});
+  EXPECT_GT(TheilSen(samples)->low_per_hour, kLeastLeakBytes);
+  EXPECT_FALSE(GrowsThroughout(samples));
+  // The same and a leak of 1 kB/s.
+  for (Sample& sample : samples) sample.value += 1000 * sample.time_s;
+  EXPECT_TRUE(GrowsThroughout(samples));
+}
+
 // How often noise alone is called a leak: 2.5 % of independent noise, by the interval; of noise
 // correlated over five samples hardly more.
 TEST(Leak, NoiseIsSeldomCalledOne) {
