@@ -46,8 +46,9 @@ void AddShrinkVerb(CLI::App* fleetctl, int* exit_code) {
   verb->add_option_function<std::string>(
           "--invariant",
           [options](const std::string& name) { options->invariant = sim::InvariantNamed(name); },
-          "The invariant that must still break; default the first that breaks")
-      ->check(CLI::IsMember(InvariantNames()));
+          "The invariant that must still break, as contact or progress; default the first that "
+          "breaks")
+      ->check(CLI::IsMember(InvariantNames()).description(""));
   verb->add_option("--out", options->out_file, "The file; default NAME_SEED.textproto");
   verb->callback([options, exit_code] { *exit_code = RunShrink(*options); });
 }
