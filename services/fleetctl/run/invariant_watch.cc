@@ -159,7 +159,9 @@ bool InvariantWatch::Observe(Tick tick) {
 
 void InvariantWatch::Finish(bool came_to_its_end) {
   EvaluateUntil(newest_);
-  if (came_to_its_end && ticks_judged_ > 0 && seen_.size() == observations_.size()) {
+  // Truth is not repeated: if that of the last tick was lost, the last to arrive still drives.
+  const bool saw_the_end = last_ == kNoTick || judged_ == last_;
+  if (came_to_its_end && saw_the_end && ticks_judged_ > 0 && seen_.size() == observations_.size()) {
     invariants_.Finish(newest_, seen_);
   }
 }

@@ -42,6 +42,21 @@ TEST_F(InvariantWatchTest, NothingIsJudgedBeforeTheStartOrAfterTheEnd) {
   EXPECT_EQ(watch_->TicksJudged(), 21U);
 }
 
+// A crossing of real processes: all had arrived, but the truth of the last tick was lost.
+TEST_F(InvariantWatchTest, ArrivalIsJudgedByTheLastTickOrNotAtAll) {
+  Observe(50);
+  for (Car& car : cars_) car.seen = false;
+  Observe({{.kind = EventKind::kEnded}});
+  watch_->Finish(true);
+  EXPECT_EQ(Count(Invariant::kArrival), 0U);
+  Begin();
+  for (Car& car : cars_) car.seen = true;
+  Observe(50);
+  Observe({{.kind = EventKind::kEnded}});
+  watch_->Finish(true);
+  EXPECT_EQ(Count(Invariant::kArrival), 2U);
+}
+
 TEST_F(InvariantWatchTest, AContactBreaksARunThatHadPassed) {
   Observe(5);
   Observe({{.kind = EventKind::kContact, .vehicle = one_, .other = two_}});
