@@ -121,7 +121,8 @@ int RunShrink(const ShrinkOptions& options) {
   scenario.name = fmt::format("{}_{}", maker.Name(), options.seed);
   WriteFile(file, WriteScenario(scenario, Comment(maker, options, *shrunk, file)));
   if (!shrunk->as_file) {
-    fmt::print(stderr, "{}: with its digits the run is another, which need not break it\n", file);
+    fmt::print(stderr, "{}: read back it need not break that: last digits of angles differ\n",
+               file);
   }
   const faults::Schedule& schedule = shrunk->made.plan.schedule;
   if (!schedule.empty()) WriteFile(FaultFileOf(file), faults::AsTextproto(schedule));

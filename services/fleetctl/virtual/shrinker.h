@@ -15,7 +15,7 @@ struct Shrunk {
   VirtualCase made;
   sim::Violation violation;  // the first of its invariant in the remaining run
   std::uint32_t attempts = 0;
-  // It breaks as its file is read, too: but for the last digits of angles that is the same.
+  // It breaks as its file is read. Else the last digits of angles, which a file rounds, matter.
   bool as_file = false;
 };
 
