@@ -67,8 +67,8 @@ void AddFlags(Service service, CommandLine* line) {
               "encoders; fleetctl faults expand writes one");
   }
   line->Add("--leave-out", "shared_memory",
-            "does without this transport of the set; a service whose shared memory was deleted\n"
-            "restarts itself so");
+            "does without this transport of the set; a service whose shared memory was deleted,\n"
+            "or is full, restarts itself so");
   line->Add("--try-qos", "FILE",
             "create every endpoint of this set once, report whether that succeeds, and exit");
   line->Add("--resume", "FILE",
@@ -76,6 +76,7 @@ void AddFlags(Service service, CommandLine* line) {
             "restarts it");
   line->Add("--former-qos", "FILE", "the set it had before");
   line->Add("--rolled-back", "TEXT", "why it restarted with that");
+  line->Add("--memory-lost", "TEXT", "why it restarted without shared memory");
   if (service == Service::kWorld) line->Add("--go-on-from", "FILE", "the run as it was");
   line->Add("--seed", "0..4294967295", "moves start poses and cruise speeds; 0 moves nothing");
   line->Add("--behaviour", "NAME",
@@ -197,6 +198,7 @@ ServiceFlags Read(Service service, FlagValues* values) {
     if (values->Text("--faults")) flags.faults = values->TextOr("", "--faults");
   }
   flags.leaves_out_shared_memory = values->OneOf("--leave-out", {"shared_memory"}).has_value();
+  flags.memory_lost = values->Text("--memory-lost").value_or("");
   flags.try_qos = values->Text("--try-qos").value_or("");
   flags.resume = ReadResumed(values);
   flags.former_qos = values->Text("--former-qos").value_or("");

@@ -40,6 +40,7 @@ struct ServiceFlags {
   std::string rolled_back;  // why it came back with that
   // Of the profile set only UDP is used.
   bool leaves_out_shared_memory = false;
+  std::string memory_lost;           // why it restarted itself so; empty: it did not
   bool hang_on_signal = false;       // vehicle only; a drill, see HangSignal
   bool watchdog = true;              // false: vehicle only, a drill; see Watchdog
   bool admin = false;                // takes orders of any operator; with a key only sealed ones

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -11,12 +12,15 @@
 #include "services/link/qos_trial.h"
 #include "services/node/qos_at_start.h"
 #include "services/node/service_main.h"
+#include "services/qos/profile_set.h"
+#include "services/qos/xml_tree.h"
 #include "services/runtime/crash_fallback.h"
 
 namespace giveway {
 namespace {
 
 constexpr unsigned kMostTrialSeconds = 10;
+constexpr const char* kMemoryLost = "--memory-lost";
 
 // Exit code 0, or 2 after the reason on stdout.
 int TryQosAndEnd(const ServiceFlags& flags, const Scenario& scenario) {
@@ -37,7 +41,8 @@ class FormerQos {
   FormerQos(const ServiceFlags& flags, const StopSignal& stop)
       : resume_(flags.resume ? std::make_unique<HeldText>("resume", ToBytes(*flags.resume))
                              : nullptr),
-        crash_fallback_({{"--qos", flags.former_qos},
+        crash_fallback_({kCrashSignals.begin(), kCrashSignals.end()},
+                        {{"--qos", flags.former_qos},
                          {"--former-qos", ""},
                          {"--resume", resume_ ? resume_->Path() : ""}},
                         "--rolled-back", stop) {}
@@ -46,6 +51,34 @@ class FormerQos {
 
  private:
   const std::unique_ptr<HeldText> resume_;
+  const CrashFallback crash_fallback_;
+};
+
+bool UsesSharedMemory(const ServiceFlags& flags, const QosProfiles& profiles) {
+  if (flags.leaves_out_shared_memory) return false;
+  const qos::XmlRead read = qos::ReadXml(profiles.text, profiles.name);
+  return read.root && qos::UsesSharedMemory(qos::ReadProfiles(*read.root, profiles.name));
+}
+
+// The library makes new files in /dev/shm also while a process runs, when it finds one of its ports
+// unhealthy. Where there is no space left, its first write ends the process by SIGBUS. That one
+// comes back over UDP alone, as after a crash: a vehicle joins again, and a world resumes from its
+// checkpoint.
+class FullMemory {
+ public:
+  FullMemory(const QosProfiles& in_use, const StopSignal& stop)
+      : qos_(NameOf(in_use.name), in_use.text),
+        crash_fallback_({SIGBUS},
+                        {{"--leave-out", "shared_memory"},
+                         {"--qos", qos_.Path()},
+                         {"--former-qos", ""},
+                         {"--rolled-back", ""},
+                         {"--resume", ""},
+                         {"--go-on-from", ""}},
+                        kMemoryLost, stop) {}
+
+ private:
+  const HeldText qos_;
   const CrashFallback crash_fallback_;
 };
 
@@ -62,16 +95,27 @@ int RunService(const ServiceFlags& flags, const Scenario& scenario, const StopSi
   if (!flags.rolled_back.empty()) {
     LogError("comes back with the QoS it had before: " + flags.rolled_back);
   }
+  if (!flags.memory_lost.empty()) {
+    LogError("comes back over UDP alone, for its shared memory may be full: " + flags.memory_lost);
+  }
   std::unique_ptr<FormerQos> former;
+  std::unique_ptr<FullMemory> full_memory;  // once there is no former one: one fallback at a time
   if (!flags.former_qos.empty()) former = std::make_unique<FormerQos>(flags, stop);
-  const auto settled = [&] {
-    former.reset();
-    for (const std::string& held : {flags.former_qos, flags.go_on_from}) LetGo(held);
-  };
   LifeEnd end;
   try {
     const link::LinkOptions options =
         LinkOptionsOf(flags, scenario, ReadSoundQos(flags.qos, scenario));
+    const auto guard_memory = [&] {
+      if (former || flags.lockstep || full_memory) return;
+      if (!UsesSharedMemory(flags, options.qos)) return;
+      full_memory = std::make_unique<FullMemory>(options.qos, stop);
+    };
+    const auto settled = [&] {
+      former.reset();
+      for (const std::string& held : {flags.former_qos, flags.go_on_from}) LetGo(held);
+      guard_memory();
+    };
+    guard_memory();
     LetGo(flags.qos);
     end = live(options, settled);
   } catch (const std::exception& error) {
@@ -83,6 +127,7 @@ int RunService(const ServiceFlags& flags, const Scenario& scenario, const StopSi
   // A stop that came while the link was closed would be forgotten by a new process image.
   if (stop.IsSet()) return end.exit_code;
   FlushLog(kFlushLog);
+  end.back->try_emplace(kMemoryLost, "");  // that was another restart
   RestartWith(*end.back);
 }
 

@@ -1,6 +1,7 @@
 // What giveway-vehicle and giveway-world do around their life as a participant: read the profile
 // set and hold it against the rules, or only try one; restart themselves when an order takes it,
-// and come back with the set they had where the new one does not do.
+// and come back with the set they had where the new one does not do, or without shared memory where
+// that is full.
 #pragma once
 
 #include <functional>

@@ -33,15 +33,6 @@ void CheckDomains(const std::vector<ComposeService>& services, Findings* finding
   }
 }
 
-bool UsesSharedMemory(const ProfileSet& set) {
-  return std::ranges::any_of(set.participations, [&](const Participation& participation) {
-    return std::ranges::any_of(participation.transports, [&](const auto& named) {
-      const Transport* transport = set.FindTransport(named.first);
-      return transport != nullptr && transport->type == "SHM";
-    });
-  });
-}
-
 }  // namespace
 
 void CheckCompose(const std::vector<ComposeService>& services, Findings* findings) {

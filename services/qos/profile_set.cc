@@ -170,6 +170,15 @@ const Transport* ProfileSet::FindTransport(std::string_view id) const {
   return found == transports.end() ? nullptr : &*found;
 }
 
+bool UsesSharedMemory(const ProfileSet& set) {
+  return std::ranges::any_of(set.participations, [&](const Participation& participation) {
+    return std::ranges::any_of(participation.transports, [&](const auto& named) {
+      const Transport* const transport = set.FindTransport(named.first);
+      return transport != nullptr && transport->type == "SHM";
+    });
+  });
+}
+
 const XmlElement* ProfilesOf(const XmlElement& root) {
   return root.name == "profiles" ? &root : root.FirstChild("profiles");
 }

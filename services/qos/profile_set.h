@@ -71,6 +71,9 @@ struct ProfileSet {
   const Transport* FindTransport(std::string_view id) const;
 };
 
+// Whether a participant profile names a transport through shared memory.
+bool UsesSharedMemory(const ProfileSet& set);
+
 // The <profiles> that the library reads, of a root that is it or holds it: the first. Null if there
 // is none.
 const XmlElement* ProfilesOf(const XmlElement& root);

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <array>
 #include <csignal>
 #include <utility>
 #include <vector>
@@ -12,18 +11,20 @@
 namespace giveway {
 namespace {
 
-constexpr std::array<int, 6> kEnding{SIGBUS, SIGSEGV, SIGABRT, SIGFPE, SIGILL, SIGSYS};
-
 // All that a handler needs, made beforehand: it runs on any thread at any moment, and may neither
 // allocate nor open anything.
+struct Back {
+  int signal_number;
+  std::vector<std::string> arguments;
+  std::vector<char*> words;  // of `arguments`
+  struct sigaction before;
+};
 struct Prepared {
-  std::array<std::vector<std::string>, kEnding.size()> arguments;  // by signal
-  std::array<std::vector<char*>, kEnding.size()> words;            // of `arguments`
+  std::vector<Back> backs;
   std::vector<int> held;
   const StopSignal* stop = nullptr;
 };
 Prepared prepared;
-std::array<struct sigaction, kEnding.size()> actions_before;
 bool is_installed = false;
 
 // As LeaveOpenOnlyHeld: of `held`, in rising order, what is let go meanwhile closes by itself.
@@ -41,8 +42,8 @@ void OnEnding(int signal_number) {
   if (!prepared.stop->IsSet()) {
     HoldSignalsBack();
     CloseAllButHeld();
-    for (std::size_t i = 0; i < kEnding.size(); ++i) {
-      if (kEnding[i] == signal_number) execv("/proc/self/exe", prepared.words[i].data());
+    for (const Back& back : prepared.backs) {
+      if (back.signal_number == signal_number) execv("/proc/self/exe", back.words.data());
     }
   }
   signal(signal_number, SIG_DFL);
@@ -58,31 +59,30 @@ std::vector<char*> WordsOf(std::vector<std::string>& arguments) {
 
 }  // namespace
 
-CrashFallback::CrashFallback(NewFlags flags, std::string why_flag, const StopSignal& stop)
+CrashFallback::CrashFallback(const std::vector<int>& signals, NewFlags flags, std::string why_flag,
+                             const StopSignal& stop)
     : flags_(std::move(flags)), why_flag_(std::move(why_flag)) {
   GIVEWAY_CHECK(!is_installed);
   is_installed = true;
   const std::vector<std::string> own = OwnArguments();
-  for (std::size_t i = 0; i < kEnding.size(); ++i) {
-    const std::string why = "it ended by signal " + std::to_string(kEnding[i]);
-    prepared.arguments[i] = ArgumentsWith(own, Because(why));
-    prepared.words[i] = WordsOf(prepared.arguments[i]);
+  prepared = {{}, HeldDescriptors(), &stop};
+  for (const int signal_number : signals) {
+    const std::string why = "it ended by signal " + std::to_string(signal_number);
+    prepared.backs.push_back({signal_number, ArgumentsWith(own, Because(why)), {}, {}});
   }
-  prepared.held = HeldDescriptors();
-  prepared.stop = &stop;
-  for (std::size_t i = 0; i < kEnding.size(); ++i) {
+  for (Back& back : prepared.backs) {
+    back.words = WordsOf(back.arguments);
     struct sigaction action {};
     sigemptyset(&action.sa_mask);
     action.sa_flags = SA_NODEFER;  // the next process image must not find its signal held back
     action.sa_handler = OnEnding;
-    const int failed = sigaction(kEnding[i], &action, &actions_before[i]);
-    GIVEWAY_CHECK(failed == 0, kEnding[i]);
+    const int failed = sigaction(back.signal_number, &action, &back.before);
+    GIVEWAY_CHECK(failed == 0, back.signal_number);
   }
 }
 
 CrashFallback::~CrashFallback() {
-  for (std::size_t i = 0; i < kEnding.size(); ++i)
-    sigaction(kEnding[i], &actions_before[i], nullptr);
+  for (const Back& back : prepared.backs) sigaction(back.signal_number, &back.before, nullptr);
   is_installed = false;
 }
 

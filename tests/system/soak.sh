@@ -85,6 +85,8 @@ judged_soak() {
   done
   return "$code"
 }
+# The verdict of a report and everything that speaks against it.
+why() { jq -c '[.verdict, .reasons, [.violations[]? | .words]]' "$1"; }
 too_busy() { jq -e '.reasons | index("machine_too_busy") != null' "$1" >/dev/null 2>&1; }
 
 # Every child of process $1 is gone, five seconds at most after it.
@@ -103,7 +105,7 @@ all_gone() {
 started() {
   local _
   for _ in $(seq 400); do
-    grep -q 'vehicles drive' "$1" && return
+    grep -qs 'vehicles drive' "$1" && return
     sleep 0.1
   done
   return 1
@@ -130,7 +132,7 @@ accounted() {
   local code=0 report=$SCRATCH/accounted
   judged_soak accounted patrol --vehicles 3 --faults "$SCRATCH/lossy.textproto" --duration 50 || code=$?
   [[ $code -eq 0 ]] ||
-    fail "a lossy soak ended with $code: $(jq -c '[.verdict, .reasons, [.violations[]? | .words]]' "$SCRATCH/accounted.json")"
+    fail "a lossy soak ended with $code: $(why "$SCRATCH/accounted.json")"
   jq -e '(.accounting | length) == 6 and ([.accounting[] | select(.difference != 0)] == []) and
     ([.accounting[] | select(.sent > 400 and .accepted > 50 and .lost > 20)] | length) == 6 and
     ([.accounting[] | .refused] | add) > 0' "$report/report.json" >/dev/null ||
@@ -170,7 +172,7 @@ killed() {
   all_gone "${children[@]}" || fail "processes of a killed soak still run"
   "$FLEETCTL" soak --resume "$report" --json >"$SCRATCH/resumed.json" 2>"$SCRATCH/resumed.log" || code=$?
   [[ $code -eq 0 ]] ||
-    fail "a resumed soak ended with $code: $(jq -c '[.verdict, .reasons]' "$SCRATCH/resumed.json")"
+    fail "a resumed soak ended with $code: $(why "$SCRATCH/resumed.json")"
   jq -e '(.resumed_at_s | length) == 1 and .resumed_at_s[0] > 8 and .ran_s > 40 and
     (.reasons | any(startswith("resumed at"))) and ([.faults[] | select(.observed and .rule == "rest")] | length) == 1' \
     "$SCRATCH/resumed.json" >/dev/null || fail "a resumed soak does not say so: $(jq -c '[.resumed_at_s, .ran_s,
@@ -229,7 +231,7 @@ whole() {
   judged_soak whole patrol --vehicles 8 --faults everything --skip-unsupported --duration "${GIVEWAY_SOAK:-90s}" \
     --seed 7 --record || code=$?
   if [[ $code -ne 0 ]]; then
-    fail "the soak ended with $code: $(jq -c '[.verdict, .reasons, [.violations[]? | .words]]' "$SCRATCH/whole.json")"
+    fail "the soak ended with $code: $(why "$SCRATCH/whole.json")"
     tail -n 20 "$SCRATCH/whole.log"
     return
   fi
@@ -257,7 +259,7 @@ host() {
   judged_soak host patrol --vehicles 4 --qos same_host --discovery-servers 2 --duration 45 \
     --faults "$SCRATCH/host.textproto" || code=$?
   [[ $code -eq 0 ]] || {
-    fail "a soak of the host's faults ended with $code: $(jq -c '[.verdict, .reasons]' "$SCRATCH/host.json")"
+    fail "a soak of the host's faults ended with $code: $(why "$SCRATCH/host.json")"
     tail -n 20 "$SCRATCH/host.log"
   }
   jq -e '[.faults[] | select(.observed)] | length == 5' "$SCRATCH/host.json" >/dev/null ||
@@ -275,7 +277,7 @@ intruded() {
   judged_soak intruded patrol --vehicles 4 --faults "$SCRATCH/intruder.textproto" --duration 42 \
     --attacker "$attacker" || code=$?
   [[ $code -eq 0 ]] || {
-    fail "a soak with an intruder ended with $code: $(jq -c '[.verdict, .reasons]' "$SCRATCH/intruded.json")"
+    fail "a soak with an intruder ended with $code: $(why "$SCRATCH/intruded.json")"
     tail -n 20 "$SCRATCH/intruded.log"
   }
   jq -e '[.faults[] | select(.observed) | .kind] | sort == ["flooded", "malformed", "replayed", "spoofed"]' \

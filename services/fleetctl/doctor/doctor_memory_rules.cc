@@ -168,11 +168,12 @@ void CheckMemoryRoom(const HostFacts& host, qos::Findings* findings) {
   if (each == 0) {
     if (memory.free_bytes > 0) return;
     add(Severity::kWarning, "memory_full", 1,
-        "The planned set does not use it; programs that do die of SIGBUS.");
+        "The planned set does not use it; programs that do die of SIGBUS, and vehicles and worlds "
+        "come back over UDP alone.");
   } else if (memory.free_bytes < each) {
     add(Severity::kError, "memory_full", each,
         "The segment of one more participant does not fit: it dies of SIGBUS on its first write "
-        "there.");
+        "there; a vehicle or a world comes back over UDP alone.");
   } else {
     // The fleet also needs a world and an observer. Processes that run have their segments.
     const std::uint64_t all = host.vehicles + std::uint64_t{qos::kOtherParticipants};

@@ -31,15 +31,17 @@ constexpr std::uint64_t kSharedMemoryEvery = 10;  // samples: it requires readin
 constexpr std::size_t kMostEnds = 256;            // kept with their last lines
 constexpr unsigned kConcluding_s = 60;            // the report of a large fleet, and a slow disk
 
-link::LinkOptions ObserverOf(const FleetSpec& spec, const Scenario& scenario) {
-  return {spec.domain,
-          spec.options.interface,
-          ReadSoundQos(spec.qos_file),
-          scenario.area,
-          static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size()),
-          false,
-          {},
-          spec.options.discovery_servers};
+// A soak that breaks shared memory keeps to UDP itself: a full /dev/shm would end it.
+link::LinkOptions ObserverOf(const FleetSpec& spec, const Scenario& scenario,
+                             bool breaks_shared_memory) {
+  return {
+      .domain = spec.domain,
+      .interface = spec.options.interface,
+      .qos = ReadSoundQos(spec.qos_file),
+      .area = scenario.area,
+      .fleet_size = static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size()),
+      .discovery_servers = spec.options.discovery_servers,
+      .leaves_out_shared_memory = breaks_shared_memory};
 }
 
 // Black boxes show them.
@@ -96,7 +98,8 @@ SoakSession::SoakSession(const FleetSpec& spec, const Scenario& scenario,
       fleet_(SoakFleet(scenario, NewcomerCount(spec.options, scenario))),
       watch_(fleet_, schedule),
       invariants_(scenario),
-      observer_(ObserverOf(spec, scenario), RangesFor(spec)),
+      own_link_(ObserverOf(spec, scenario, tools.shm != nullptr)),
+      observer_(own_link_, RangesFor(spec)),
       processes_(tools.commands),
       attackers_({tools.attacker, tools.domain, tools.interface}),
       faults_(std::move(tools), &processes_),
@@ -114,8 +117,8 @@ SoakSession::SoakSession(const FleetSpec& spec, const Scenario& scenario,
   const std::string& ring_s = spec.options.record_ring;
   if (ring_s.empty()) return;
   const seconds ring(std::stoul(ring_s));
-  rings_.emplace(ObserverOf(spec, scenario), KeyToOrderWith(spec.options.admin_key, spec.domain),
-                 fleet_, spec.options.record_folder, ring);
+  rings_.emplace(own_link_, KeyToOrderWith(spec.options.admin_key, spec.domain), fleet_,
+                 spec.options.record_folder, ring);
   black_box_.emplace(scenario, spec.options.record_folder, ring);
 }
 

@@ -81,6 +81,7 @@ class SoakSession {
   std::vector<VehicleId> fleet_;
   SoakWatch watch_;
   InvariantWatch invariants_;
+  const link::LinkOptions own_link_;
   link::ObserverLink observer_;
   FleetProcesses processes_;
   Attackers attackers_;

@@ -37,6 +37,8 @@ std::optional<std::string> Argument(const std::string& name) {
   return found[1];
 }
 
+const std::vector<int> kAll{kCrashSignals.begin(), kCrashSignals.end()};
+
 // Runs twice: as a test, and as the image that its child process comes back as.
 TEST(CrashFallback, LeadsOnFromTheSignalsThatEndAProcess) {
   if (const auto why = Argument("--why")) {
@@ -49,12 +51,13 @@ TEST(CrashFallback, LeadsOnFromTheSignalsThatEndAProcess) {
     EXPECT_TRUE(sigismember(&held_back, SIGTERM)) << "a stop is lost";
     return;
   }
-  for (const int ending : {SIGBUS, SIGSEGV, SIGABRT, SIGFPE, SIGILL, SIGSYS}) {
+  for (const int ending : kAll) {
     const int status = StatusOf([&] {
       const StopSignal stop;
       const HeldText text("mine.xml", "<dds/>");
       const int open_file = open("/dev/null", O_RDONLY);
-      const CrashFallback way({{"--gtest_filter=CrashFallback.LeadsOn*", "x"},
+      const CrashFallback way(kAll,
+                              {{"--gtest_filter=CrashFallback.LeadsOn*", "x"},
                                {"--by", std::to_string(ending)},
                                {"--open", std::to_string(open_file)},
                                {"--held", text.Path()}},
@@ -68,7 +71,7 @@ TEST(CrashFallback, LeadsOnFromTheSignalsThatEndAProcess) {
 TEST(CrashFallback, IsNoneForAProcessThatWasToldToStop) {
   const int status = StatusOf([] {
     const StopSignal stop;
-    const CrashFallback way({{"--gtest_filter=None", "x"}}, "--why", stop);
+    const CrashFallback way(kAll, {{"--gtest_filter=None", "x"}}, "--why", stop);
     std::raise(SIGTERM);
     std::raise(SIGBUS);
   });
@@ -78,15 +81,40 @@ TEST(CrashFallback, IsNoneForAProcessThatWasToldToStop) {
 TEST(CrashFallback, IsOverWithItsScope) {
   const int status = StatusOf([] {
     const StopSignal stop;
-    { const CrashFallback way({{"--gtest_filter=None", "x"}}, "--why", stop); }
+    { const CrashFallback way(kAll, {{"--gtest_filter=None", "x"}}, "--why", stop); }
     std::raise(SIGBUS);
   });
   EXPECT_FALSE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << "it came back";
 }
 
+TEST(CrashFallback, LeavesTheSignalsThatItIsNotForAlone) {
+  const int status = StatusOf([] {
+    const StopSignal stop;
+    const CrashFallback way({SIGBUS}, {{"--gtest_filter=None", "x"}}, "--why", stop);
+    std::raise(SIGABRT);
+  });
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT) << status;
+}
+
+// As the trial of a profile set is followed by the guard against full memory.
+TEST(CrashFallback, OfOneAfterAnotherTheLastHolds) {
+  if (const auto why = Argument("--second")) {
+    EXPECT_EQ(why, "it ended by signal " + std::to_string(SIGBUS));
+    return;
+  }
+  const int status = StatusOf([] {
+    const StopSignal stop;
+    { const CrashFallback first(kAll, {{"--gtest_filter=None", "x"}}, "--first", stop); }
+    const CrashFallback second({SIGBUS}, {{"--gtest_filter=CrashFallback.OfOne*", "x"}}, "--second",
+                               stop);
+    std::raise(SIGBUS);
+  });
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+}
+
 TEST(CrashFallback, IsTheSameForWhatIsNoSignal) {
   const StopSignal stop;
-  const CrashFallback way({{"--qos", "former.xml"}}, "--why", stop);
+  const CrashFallback way(kAll, {{"--qos", "former.xml"}}, "--why", stop);
   EXPECT_EQ(way.Because("no such profile"),
             (NewFlags{{"--qos", "former.xml"}, {"--why", "no such profile"}}));
 }

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "services/config/config_dir.h"
 #include "services/fleetctl/process/child_process.h"
 #include "services/fleetctl/process/file_descriptor.h"
 #include "services/fleetctl/soak/host_faults/ipv4_address.h"
@@ -75,13 +76,15 @@ std::vector<DiscoveryServer> FreeServerAddresses(std::uint32_t count,
 std::vector<MemberCommand> ServerCommands(const std::vector<DiscoveryServer>& addresses,
                                           const std::string& logs_folder) {
   const std::string program = FindProgram();
+  const std::string profiles = ConfigDir() + "/deploy/discovery_server.xml";
   std::vector<MemberCommand> commands;
   for (std::uint32_t i = 0; i < addresses.size(); ++i) {
     const MemberId member{MemberKind::kDiscoveryServer, i + 1};
-    // The place in the clients' list is the number that 2.9.1 knows a server by.
+    // With the profiles of a deployment's: over UDP alone, so that no full /dev/shm ends it. The
+    // place in the clients' list is the number that 2.9.1 knows a server by.
     ChildCommand child{NameOf(member),
-                       {program, "-i", std::to_string(i), "-l", addresses[i].host, "-p",
-                        std::to_string(addresses[i].port)}};
+                       {program, "-x", profiles, "-i", std::to_string(i), "-l", addresses[i].host,
+                        "-p", std::to_string(addresses[i].port)}};
     const std::string log = fmt::format("discovery-server-{}.log", i + 1);
     child.log_file = (std::filesystem::path(logs_folder) / log).string();
     commands.push_back({member, std::move(child)});

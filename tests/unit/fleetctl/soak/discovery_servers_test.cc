@@ -11,6 +11,7 @@ namespace {
 using faults::Kind;
 using faults::Target;
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsNull;
 using testing::SizeIs;
@@ -22,9 +23,10 @@ TEST(DiscoveryServers, EachListensOnItsAddressUnderItsPlaceInTheList) {
   EXPECT_EQ(commands[1].child.name, "discovery server 2");
   EXPECT_EQ(commands[1].child.log_file, "/logs/discovery-server-2.log");
   const auto& words = commands[1].child.words;
-  ASSERT_THAT(words, SizeIs(7));
+  ASSERT_THAT(words, SizeIs(9));
   EXPECT_THAT(std::vector(words.begin() + 1, words.end()),
-              ElementsAre("-i", "1", "-l", "127.0.0.1", "-p", "4001"));
+              ElementsAre("-x", EndsWith("/deploy/discovery_server.xml"), "-i", "1", "-l",
+                          "127.0.0.1", "-p", "4001"));
 }
 
 TEST(DiscoveryServers, ListenOnAnAddressAndNoName) {
