@@ -9,6 +9,7 @@ declare -A PID # of each member, by its name; its log is $SCRATCH/NAME.log
 
 end_members() {
   local name
+  end_listening
   for name in "${!PID[@]}"; do kill -9 "${PID[$name]}" 2>/dev/null || true; done
   [[ -n ${KEEP:-} ]] || rm -rf "$SCRATCH"
 }
