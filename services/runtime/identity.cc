@@ -5,18 +5,42 @@
 
 #include <charconv>
 #include <fstream>
-#include <iterator>
 
 namespace giveway {
 namespace {
 
-constexpr char kName[] = "giveway-identity";
+constexpr const char* kIdentity = "giveway-identity";
+constexpr const char* kHeap = "giveway-heap";
 constexpr std::string_view kVehicle = "vehicle ";
 constexpr std::string_view kParticipant = "\nparticipant ";
 constexpr std::size_t kMostBytes = 128;
 
 bool IsHexadecimal(std::string_view text) {
   return text.find_first_not_of("0123456789abcdef") == text.npos;
+}
+
+// Longer or shorter by a digit: for a reader in between the last byte is not a line's end.
+void Publish(int descriptor, const std::string& text) {
+  if (descriptor < 0 || ftruncate(descriptor, 0) != 0) return;
+  [[maybe_unused]] const ssize_t written = pwrite(descriptor, text.data(), text.size(), 0);
+}
+
+// Empty where the process publishes nothing of this name, or may not be read.
+std::string ReadPublished(const std::filesystem::path& process, const char* name) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  for (fs::directory_iterator file(process / "fd", error), end; !error && file != end;
+       file.increment(error)) {
+    std::error_code unreadable;
+    const std::string link = fs::read_symlink(file->path(), unreadable).filename().string();
+    if (!link.starts_with(std::string("memfd:") + name)) continue;
+    std::ifstream stream(file->path(), std::ios::binary);
+    std::string text(kMostBytes, '\0');
+    stream.read(text.data(), kMostBytes);
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    return text;
+  }
+  return {};
 }
 
 }  // namespace
@@ -41,29 +65,25 @@ std::optional<Identity> ParseIdentity(std::string_view text) {
 }
 
 void PublishIdentity(const Identity& identity) {
-  static const int descriptor = memfd_create(kName, MFD_CLOEXEC);
-  if (descriptor < 0) return;
-  const std::string text = ToText(identity);
-  // Longer or shorter by an id's digits: for a reader in between the last byte is not a line's end.
-  if (ftruncate(descriptor, 0) != 0) return;
-  [[maybe_unused]] const ssize_t written = pwrite(descriptor, text.data(), text.size(), 0);
+  static const int descriptor = memfd_create(kIdentity, MFD_CLOEXEC);
+  Publish(descriptor, ToText(identity));
 }
 
 std::optional<Identity> ReadIdentity(const std::filesystem::path& process) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  for (fs::directory_iterator file(process / "fd", error), end; !error && file != end;
-       file.increment(error)) {
-    std::error_code unreadable;
-    const std::string link = fs::read_symlink(file->path(), unreadable).filename().string();
-    if (!link.starts_with(std::string("memfd:") + kName)) continue;
-    std::ifstream stream(file->path(), std::ios::binary);
-    std::string text(kMostBytes, '\0');
-    stream.read(text.data(), kMostBytes);
-    text.resize(static_cast<std::size_t>(stream.gcount()));
-    return ParseIdentity(text);
-  }
-  return std::nullopt;
+  return ParseIdentity(ReadPublished(process, kIdentity));
+}
+
+void PublishHeap(std::uint64_t bytes) {
+  static const int descriptor = memfd_create(kHeap, MFD_CLOEXEC);
+  Publish(descriptor, std::to_string(bytes) + '\n');
+}
+
+std::optional<std::uint64_t> ReadHeap(const std::filesystem::path& process) {
+  const std::string text = ReadPublished(process, kHeap);
+  std::uint64_t bytes = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), bytes);
+  const bool whole = error == std::errc{} && text.ends_with('\n') && *end == '\n';
+  return whole ? std::optional(bytes) : std::nullopt;
 }
 
 }  // namespace giveway

@@ -1,10 +1,11 @@
-// The identity of a service, for tools that look at its process from outside: a small text in
-// memory that /proc/PID/fd shows under a name of its own. No flag holds the id that a world
-// assigned, and in containers process ids are all the same; but a tool that may read a process's
-// environment finds this, in whatever namespaces it runs. It ends with the process, and no file
-// stays behind.
+// The identity of a service, and the heap it uses, for tools that look at its process from outside:
+// small texts in memory that /proc/PID/fd shows under names of their own. No flag holds the id that
+// a world assigned, in containers process ids are all the same, and no allocator can be asked from
+// outside; but a tool that may read a process's environment finds these, in whatever namespaces it
+// runs. They end with the process, and no file stays behind.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -33,5 +34,9 @@ void SetLogVehicle(VehicleId id);
 void PublishIdentity(const Identity& identity);
 // Of the process with this folder in /proc. Nothing if it publishes none, or may not be read.
 std::optional<Identity> ReadIdentity(const std::filesystem::path& process);
+
+// The same for the bytes of heap that this process uses now.
+void PublishHeap(std::uint64_t bytes);
+std::optional<std::uint64_t> ReadHeap(const std::filesystem::path& process);
 
 }  // namespace giveway

@@ -4,8 +4,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "services/health/heap_in_use.h"
 #include "services/link/fastdds/packets_of_process.h"
 #include "services/node/service_run.h"
+#include "services/runtime/identity.h"
 #include "services/runtime/state_file.h"
 #include "services/world_node/event_line.h"
 #include "sim_world/geometry/ticks.h"
@@ -21,6 +23,7 @@ constexpr Nanoseconds kFlushTimeout = milliseconds(500);
 constexpr Nanoseconds kFlushWhenStopped = milliseconds(300);  // all is to be over in a second
 constexpr Nanoseconds kCheckpointPeriod = milliseconds(200);
 constexpr Nanoseconds kReminder = seconds(5);
+constexpr Nanoseconds kHeapEvery = seconds(1);  // as a supervisor samples it
 // For the vehicles of a world that was restarted to find it: those that do not are silent then.
 constexpr Nanoseconds kResumePatience = seconds(10);
 // A vehicle that joins a running fleet stands until it hears all peers, but not for ever.
@@ -94,6 +97,7 @@ WorldEnd WorldLoop::Drive(const StopSignal& stop) {
     RunTick();
     KeepCheckpoint();
     ReportHealth(HealthStage::kUnderWay);
+    PublishHeapIfDue();
     ReportIfAlone();
     LogNews(link_.TakeRefusals(), link_.TakeUnfit(SteadyNow()), SteadyNow(), &refusal_log_);
     LogDrops(link::PacketsOfProcess(), SteadyNow(), &packet_log_);
@@ -380,6 +384,14 @@ void WorldLoop::ReportIfAlone() {
   report_alone_ = SteadyNow() + kReminder;
   const std::string why = link_.WhyNoPeerIsFound();
   if (!why.empty()) LogWarning(why);
+}
+
+// A vehicle says it in its status; the world has none.
+void WorldLoop::PublishHeapIfDue() {
+  const SteadyTime now = SteadyNow();
+  if (now < next_heap_) return;
+  next_heap_ = now + kHeapEvery;
+  if (const auto bytes = HeapInUse()) PublishHeap(*bytes);
 }
 
 void WorldLoop::ReportHealth(HealthStage stage) {

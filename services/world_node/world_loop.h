@@ -93,6 +93,7 @@ class WorldLoop {
   bool AnnounceEnd(Nanoseconds patience);
   void ReportHealth(HealthStage stage);
   void ReportIfAlone();
+  void PublishHeapIfDue();
   bool HasLostSharedMemory();
   bool MayCommand(const MotorCommand& command);
   void Heed(const MotorCommand& command);
@@ -120,6 +121,7 @@ class WorldLoop {
   std::uint32_t overruns_ = 0;
   std::unique_ptr<StateWriter<>> checkpoint_writer_;  // null: none is kept
   SteadyTime next_checkpoint_{0};
+  SteadyTime next_heap_{0};         // when its heap is next published
   FaultReminder checkpoint_fault_;  // a full disk is no news at every tick
 };
 

@@ -126,7 +126,8 @@ measure() {
   sleep 3 # the announcements of the start are over
   world='' vehicles=()
   for pid in $(children_of "$fleet"); do
-    case $(arguments_of "$pid") in
+    read_arguments "$pid"
+    case $arguments in
       */giveway-world\ *) world=$pid ;;
       */giveway-vehicle\ *) vehicles+=("$pid") ;;
     esac

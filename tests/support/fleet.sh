@@ -37,13 +37,20 @@ children_of() {
   return 0
 }
 
-arguments_of() { { tr '\0' ' ' <"/proc/$1/cmdline"; } 2>/dev/null || true; }
+# Sets `arguments` to the command line of a process, a blank after each word; empty where there is none. Without
+# a process of its own: tests look through all of them many times a second.
+read_arguments() {
+  local argv=()
+  { mapfile -d '' -t argv <"/proc/$1/cmdline"; } 2>/dev/null || true
+  arguments=''
+  [[ ${#argv[@]} -eq 0 ]] || printf -v arguments '%s ' "${argv[@]}"
+}
 
 # The child of fleetctl $1 that is `world` or vehicle number $2; empty if there is none yet.
 find_child() {
   local pid arguments
   for pid in $(children_of "$1"); do
-    arguments=$(arguments_of "$pid")
+    read_arguments "$pid"
     case $2 in
       world) [[ $arguments == */giveway-world\ * ]] && echo "$pid" ;;
       *) [[ $arguments == */giveway-vehicle\ *"--id $2 "* ]] && echo "$pid" ;;
@@ -77,13 +84,19 @@ domain_said() {
 }
 
 # The domain in a child's arguments.
-domain_of() { arguments_of "$1" | sed -n 's/.*--domain \([0-9]*\) .*/\1/p'; }
+domain_of() {
+  local arguments
+  read_arguments "$1"
+  [[ $arguments =~ .*--domain\ ([0-9]+)\  ]] && echo "${BASH_REMATCH[1]}"
+  return 0
+}
 
 # The processes of a run on a domain, one a line.
 processes_on() {
-  local folder
+  local folder arguments
   for folder in /proc/[0-9]*; do
-    [[ $(arguments_of "${folder#/proc/}") == *"/giveway-"*" --domain $1 "* ]] || continue
+    read_arguments "${folder#/proc/}"
+    [[ $arguments == *"/giveway-"*" --domain $1 "* ]] || continue
     echo "${folder#/proc/}"
   done
   return 0

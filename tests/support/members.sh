@@ -47,17 +47,22 @@ lines_of() { wc -l <"$SCRATCH/$1.log"; }
 # await WHAT SECONDS NAME PATTERN [LINE]: true once a line of the member's log after line LINE
 # matches; a failure if none does in time.
 await() {
-  local what=$1 seconds=$2 log=$SCRATCH/$3.log pattern=$4 from=$((${5:-0} + 1)) started now
-  started=$(date +%s%N)
-  while ! tail -n "+$from" "$log" 2>/dev/null | grep -Eq "$pattern"; do
-    now=$(date +%s%N)
-    if ((now - started > seconds * 1000000000)); then
+  local what=$1 seconds=$2 log=$SCRATCH/$3.log pattern=$4 from=${5:-0} started_us=${EPOCHREALTIME/[.,]/}
+  until has_said "$log" "$pattern" "$from"; do
+    if ((${EPOCHREALTIME/[.,]/} - started_us > seconds * 1000000)); then
       fail "$what: no '$pattern' in $seconds s; $3 says: $(tail -n 3 "$log" | tr '\n' '|')"
       return
     fi
     sleep 0.02
   done
-  echo "$what: $((($(date +%s%N) - started) / 1000000)) ms" >&2
+  echo "$what: $(((${EPOCHREALTIME/[.,]/} - started_us) / 1000)) ms" >&2
+}
+# has_said LOG PATTERN LINE: true if a line after that one matches. In this process: it is asked fifty times a second.
+has_said() {
+  local line log_lines=()
+  { mapfile -s "$3" -t log_lines <"$1"; } 2>/dev/null || return 1
+  for line in "${log_lines[@]}"; do [[ ! $line =~ $2 ]] || return 0; done
+  return 1
 }
 
 # The id the world gave a member.

@@ -75,6 +75,10 @@ turns=$(metric "$A" giveway_vehicle_loop_turns_total)
 [[ $(metric "$A" 'giveway_vehicle_mode{mode="cooperative"}') == 1 ]] || fail "a: mode"
 [[ $(metric "$WORLD" giveway_world_vehicles_joined) == 2 ]] || fail "the world: vehicles joined"
 [[ $(metric "$WORLD" 'giveway_world_run_state{state="running"}') == 1 ]] || fail "the run"
+# What a supervisor reads from outside is what the allocator says, a second old at most.
+said=$(metric "$WORLD" process_heap_bytes)
+seen=$(cat "$(find "/proc/${PID[world]}/fd" -lname '/memfd:giveway-heap*')")
+((4 * seen > 3 * said && 4 * seen < 5 * said)) || fail "the world: $said bytes of heap, $seen from outside"
 (($(metric "$A" giveway_vehicle_loop_turns_total) > turns)) || fail "the metrics of a do not change"
 
 # --- A port that is taken: refused at once, with a remedy.

@@ -123,7 +123,7 @@ bool WithinBudgets(const SoakHistogram& measured);
 
 enum class ResourceKind : std::uint8_t {
   kPrivateBytes,
-  kHeapBytes,  // of a vehicle, by its own status
+  kHeapBytes,  // in use, as its allocator counts it
   kResidentBytes,
   kDescriptors,
   kThreads,

@@ -10,6 +10,7 @@
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/process/process_resources.h"
 #include "services/fleetctl/process/run_key.h"
+#include "services/runtime/identity.h"
 #include "services/runtime/process.h"
 
 namespace giveway::fleetctl {
@@ -400,7 +401,8 @@ void SoakSession::Sample(SteadyTime now) {
     resources_.Add(ProcessName(member), time_s, *resources, heap_bytes);
     living.push_back(*processes_.PidOf(member));
   };
-  sample(kTheWorld, std::nullopt);
+  const std::optional<pid_t> world = processes_.PidOf(kTheWorld);
+  sample(kTheWorld, world ? ReadHeap(fmt::format("/proc/{}", *world)) : std::nullopt);
   for (const VehicleId vehicle : fleet_) sample(MemberOf(vehicle), watch_.HeapOf(vehicle, now));
   resources_.AddSupervisor(OwnProcessorSeconds());
   if (++samples_ % kSharedMemoryEvery == 0) {

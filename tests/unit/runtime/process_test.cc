@@ -61,6 +61,16 @@ TEST(Identity, IsReadFromTheProcessThatPublishesIt) {
   EXPECT_EQ(ReadIdentity("/proc/self"), before);
 }
 
+TEST(Identity, AndTheHeapOfAProcessAreReadEachByItself) {
+  PublishHeap(12'345'678);
+  EXPECT_EQ(ReadHeap("/proc/self"), 12'345'678u);
+  PublishIdentity({VehicleId{7}, "010f45d2a3b1000001000000"});
+  PublishHeap(99);
+  EXPECT_EQ(ReadHeap("/proc/self"), 99u);
+  EXPECT_EQ(ReadIdentity("/proc/self")->vehicle, VehicleId{7});
+  EXPECT_FALSE(ReadHeap("/proc/self/task"));
+}
+
 TEST(Identity, ThatIsNotWholeIsNone) {
   const std::string whole = ToText({VehicleId{7}, "010f45d2a3b1000001000000"});
   for (std::size_t length = 0; length < whole.size(); ++length) {
