@@ -61,9 +61,9 @@ bool UsesSharedMemory(const ServiceFlags& flags, const QosProfiles& profiles) {
 }
 
 // The library makes new files in /dev/shm also while a process runs, when it finds one of its ports
-// unhealthy. Where there is no space left, its first write ends the process by SIGBUS. That one
-// comes back over UDP alone, as after a crash: a vehicle joins again, and a world resumes from its
-// checkpoint.
+// unhealthy. Where there is no space left, its first write ends the process by SIGBUS. The service
+// then comes back over UDP alone, as after a crash: a vehicle joins again, and a world resumes from
+// its checkpoint.
 class FullMemory {
  public:
   FullMemory(const QosProfiles& in_use, const StopSignal& stop)
