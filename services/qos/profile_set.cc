@@ -171,12 +171,13 @@ const Transport* ProfileSet::FindTransport(std::string_view id) const {
 }
 
 bool UsesSharedMemory(const ProfileSet& set) {
-  return std::ranges::any_of(set.participations, [&](const Participation& participation) {
-    return std::ranges::any_of(participation.transports, [&](const auto& named) {
-      const Transport* const transport = set.FindTransport(named.first);
-      return transport != nullptr && transport->type == "SHM";
-    });
-  });
+  const auto ours =
+      std::ranges::find(set.participations, kParticipantProfile, &Participation::profile);
+  return ours != set.participations.end() &&
+         std::ranges::any_of(ours->transports, [&](const auto& named) {
+           const Transport* const transport = set.FindTransport(named.first);
+           return transport != nullptr && transport->type == "SHM";
+         });
 }
 
 const XmlElement* ProfilesOf(const XmlElement& root) {

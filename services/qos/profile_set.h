@@ -71,7 +71,10 @@ struct ProfileSet {
   const Transport* FindTransport(std::string_view id) const;
 };
 
-// Whether a participant profile names a transport through shared memory.
+// Of world, vehicles and observers alike.
+inline constexpr std::string_view kParticipantProfile = "giveway_participant";
+
+// Whether that profile names a transport through shared memory.
 bool UsesSharedMemory(const ProfileSet& set);
 
 // The <profiles> that the library reads, of a root that is it or holds it: the first. Null if there

@@ -21,8 +21,8 @@ ProfileSet Own(const ProfileSet& set, Role role, Owner owner) {
 
 // Two processes find each other only by the same protocol at the same ports.
 void CheckDiscovery(const ProfileSet& a, const ProfileSet& b, Findings* findings) {
-  const Profile* const one = a.Find(Owner::kParticipant, "giveway_participant");
-  const Profile* const other = b.Find(Owner::kParticipant, "giveway_participant");
+  const Profile* const one = a.Find(Owner::kParticipant, kParticipantProfile);
+  const Profile* const other = b.Find(Owner::kParticipant, kParticipantProfile);
   if (one == nullptr || other == nullptr) return;
   for (const Policy policy : {Policy::kDiscoveryProtocol, Policy::kPortBase, Policy::kDomainGain,
                               Policy::kParticipantGain, Policy::kOffset0, Policy::kOffset1,

@@ -8,8 +8,6 @@
 namespace giveway::qos {
 namespace {
 
-constexpr std::string_view kParticipantProfile = "giveway_participant";
-
 struct Wanted {
   Owner owner;
   std::string name;

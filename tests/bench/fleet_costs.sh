@@ -109,7 +109,7 @@ wait_until_running() {
 }
 
 measure() {
-  local count=$1 logs="$SCRATCH/logs-$1" started_ns world vehicles pid
+  local count=$1 logs="$SCRATCH/logs-$1" started_ns world vehicles pid arguments
   lanes "$count" >"$SCRATCH/lanes-$count.textproto"
   started_ns=$(date +%s%N)
   read -r packets_0 _ <<<"$(wire)"

@@ -14,7 +14,7 @@ apply() {
   [[ $code -eq $wanted ]] || fail "$name: exit code $code: $(head -c 600 out err)"
 }
 # says NAME CONDITION: true of the JSON object of the last command.
-says() { jq -e "$2" out >/dev/null || fail "$1: not true of $(jq -c 'del(.vehicles[]?.changes)' out): $2"; }
+says() { jq -e "$2" out >/dev/null || fail "$1: not true of $(jq -c 'del(.vehicles[]?.changes)' out || head -c 900 out): $2"; }
 
 # with FILE PROFILE SED...: a copy of the default in which one profile is edited.
 with() {

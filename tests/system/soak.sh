@@ -30,6 +30,9 @@ refusals() {
   echo 'at { name: "a" time_s: 20 kind: "restart" target: "discovery_server" for_s: 1 }' >"$SCRATCH/server.textproto"
   refused 'takes --discovery-servers' patrol --faults "$SCRATCH/server.textproto" --duration 60
   refused "'lo' is none" patrol --faults calm --duration 60 --discovery-servers 1 --interface lo
+  mkdir -p "$SCRATCH/config" && cp -r "$REPOSITORY"/config/{qos,scenarios,faults} "$SCRATCH/config"
+  GIVEWAY_CONFIG_DIR=$SCRATCH/config refused 'discovery_server.xml, the profiles of a server' patrol --faults calm \
+    --duration 60 --discovery-servers 1
   refused 'b' patrol --faults "$SCRATCH/twice.textproto" --duration 60
   refused 'no_such' patrol --faults no_such --duration 60
   refused '30 s' patrol --faults calm --duration 5

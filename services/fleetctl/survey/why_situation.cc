@@ -9,7 +9,6 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr char kParticipantProfile[] = "giveway_participant";
 constexpr std::uint32_t kLoopback = 127;  // first number of its addresses
 
 bool IsLoopback(std::uint32_t address) { return address >> 24U == kLoopback; }
@@ -62,19 +61,14 @@ std::optional<std::uint16_t> HostId(const ProcessSituation& process) {
 
 std::optional<std::int64_t> ParticipantNumber(const ProcessSituation& process, qos::Policy policy) {
   if (!process.profiles) return std::nullopt;
-  const auto* profile = process.profiles->Find(qos::Owner::kParticipant, kParticipantProfile);
+  const auto* profile = process.profiles->Find(qos::Owner::kParticipant, qos::kParticipantProfile);
   if (profile == nullptr) return std::nullopt;
   return profile->Number(policy);
 }
 
 bool UsesSharedMemory(const ProcessSituation& process) {
-  if (!process.profiles || process.launch.leaves_out_shared_memory) return false;
-  const auto& all = process.profiles->participations;
-  const auto found = std::ranges::find(all, kParticipantProfile, &qos::Participation::profile);
-  return found != all.end() && std::ranges::any_of(found->transports, [&](const auto& named) {
-           const qos::Transport* const transport = process.profiles->FindTransport(named.first);
-           return transport != nullptr && transport->type == "SHM";
-         });
+  return process.profiles && !process.launch.leaves_out_shared_memory &&
+         qos::UsesSharedMemory(*process.profiles);
 }
 
 std::vector<std::uint32_t> ParticipantIds(const ProcessSituation& process) {

@@ -8,7 +8,6 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr char kParticipantProfile[] = "giveway_participant";
 constexpr std::int64_t kPeersRange = 4;  // the library's default of maxInitialPeersRange
 
 void Add(Weight weight, std::string rule, std::string values, std::string consequence,
@@ -88,7 +87,7 @@ bool ShareNetwork(const ProcessSituation& a, const ProcessSituation& b) {
 const qos::Participation* ParticipationOf(const ProcessSituation& process) {
   if (!process.profiles) return nullptr;
   const auto& all = process.profiles->participations;
-  const auto found = std::ranges::find(all, kParticipantProfile, &qos::Participation::profile);
+  const auto found = std::ranges::find(all, qos::kParticipantProfile, &qos::Participation::profile);
   return found == all.end() ? nullptr : &*found;
 }
 

@@ -32,6 +32,9 @@ std::string FindProgram() {
   return {};
 }
 
+// Those of a deployment's servers.
+std::string ProfileFile() { return ConfigDir() + "/deploy/discovery_server.xml"; }
+
 // 0 port: the kernel chooses one that is free.
 bool Bind(int socket, in_addr address, sockaddr_in* bound) {
   *bound = {};
@@ -52,6 +55,12 @@ std::string WhyNoDiscoveryServers(const std::string& interface) {
   }
   if (FindProgram().empty()) {
     return fmt::format("there is no {} in PATH: install Debian's fastdds-tools", kProgram);
+  }
+  if (::access(ProfileFile().c_str(), R_OK) != 0) {
+    return fmt::format(
+        "cannot read {}, the profiles of a server: GIVEWAY_CONFIG_DIR needs a copy of "
+        "config/deploy",
+        ProfileFile());
   }
   return {};
 }
@@ -76,7 +85,7 @@ std::vector<DiscoveryServer> FreeServerAddresses(std::uint32_t count,
 std::vector<MemberCommand> ServerCommands(const std::vector<DiscoveryServer>& addresses,
                                           const std::string& logs_folder) {
   const std::string program = FindProgram();
-  const std::string profiles = ConfigDir() + "/deploy/discovery_server.xml";
+  const std::string profiles = ProfileFile();
   std::vector<MemberCommand> commands;
   for (std::uint32_t i = 0; i < addresses.size(); ++i) {
     const MemberId member{MemberKind::kDiscoveryServer, i + 1};
