@@ -1,10 +1,13 @@
 // The library that a soak preloads into processes whose system clock it steps: readings of
-// CLOCK_REALTIME are shifted by the offset in a file that the soak maps too. Monotonic clocks are
-// unchanged, as in a real step. libfaketime does the same for whole programs, but makes a vehicle
+// CLOCK_REALTIME are shifted by the offset in a file that the soak maps too, and waits until a time
+// of it are shifted back, since the kernel's clock is unchanged: those of conditions, and those of
+// mutexes and semaphores, by which Fast DDS waits in shared memory. Monotonic clocks are unchanged,
+// as in a real step. libfaketime does the same for whole programs, but makes a vehicle
 // with Fast DDS 2.9.1 hang: it takes every timed wait for one on the system clock.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>
+#include <semaphore.h>
 #include <sys/mman.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -40,6 +43,13 @@ ClockShift& Shift() {
 template <typename Function>
 Function* Original(const char* name) {
   return reinterpret_cast<Function*>(::dlsym(RTLD_NEXT, name));
+}
+
+// The same moment on the kernel's clock.
+timespec OnKernelClock(const timespec& until) {
+  timespec moved = until;
+  if (moved.tv_sec > kOfSystemClock_s) moved.tv_sec -= Shift().offset_s;
+  return moved;
 }
 
 timespec ReadSystemClock() {
@@ -78,17 +88,27 @@ std::time_t time(std::time_t* now) noexcept {
   return read_s;
 }
 
-// The kernel's clock is not shifted: the time to wait for is shifted back.
 int pthread_cond_timedwait(pthread_cond_t* condition, pthread_mutex_t* mutex,
                            const timespec* until) {
   static auto* const original =
       giveway::fleetctl::Original<int(pthread_cond_t*, pthread_mutex_t*, const timespec*)>(
           "pthread_cond_timedwait");
-  timespec moved = *until;
-  if (moved.tv_sec > giveway::fleetctl::kOfSystemClock_s) {
-    moved.tv_sec -= giveway::fleetctl::Shift().offset_s;
-  }
+  const timespec moved = giveway::fleetctl::OnKernelClock(*until);
   return original(condition, mutex, &moved);
+}
+
+int pthread_mutex_timedlock(pthread_mutex_t* mutex, const timespec* until) noexcept {
+  static auto* const original = giveway::fleetctl::Original<int(pthread_mutex_t*, const timespec*)>(
+      "pthread_mutex_timedlock");
+  const timespec moved = giveway::fleetctl::OnKernelClock(*until);
+  return original(mutex, &moved);
+}
+
+int sem_timedwait(sem_t* semaphore, const timespec* until) {
+  static auto* const original =
+      giveway::fleetctl::Original<int(sem_t*, const timespec*)>("sem_timedwait");
+  const timespec moved = giveway::fleetctl::OnKernelClock(*until);
+  return original(semaphore, &moved);
 }
 
 }  // extern "C"
