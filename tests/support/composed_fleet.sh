@@ -68,7 +68,7 @@ multicast_finds_nobody() {
   await "by multicast: the firewall dropped it" 5 drops_multicasts
   docker rm -f "$alone" >/dev/null
 }
-drops_multicasts() { nft list table bridge "$FIREWALL" | grep -q 'counter packets [1-9]'; }
+drops_multicasts() { grep -q 'counter packets [1-9]' < <(nft list table bridge "$FIREWALL"); }
 says() { docker logs "$1" 2>&1 | grep -Eq "$2"; }
 pass_multicast() { nft delete table bridge "$FIREWALL" 2>/dev/null || true; }
 
@@ -93,7 +93,7 @@ members() { # SERVICE [FILTER]
     --filter "label=com.docker.compose.service=$1" ${2:+--filter "$2"}
 }
 running() { members "$1" status=running; }
-first_of() { running "$1" | head -n 1; }
+first_of() { head -n 1 < <(running "$1"); }
 name_of() { docker inspect -f '{{.Name}}' "$1" | tr -d /; }
 # The first process of a container; 0 if it does not run. Kept as long as that process lives: drills ask for it many
 # times a second, and the engine takes a twentieth of one for an answer.
@@ -196,7 +196,7 @@ holds() {
 excused() {
   local ended reason vehicle
   ended=$(docker logs "$1" 2>&1 | sed -n 's/.*ended: .*; failed: \(.*\); late for \([0-9]*\) ticks.*/\2 \1/p')
-  [[ -n $ended ]] && ! docker logs "$1" 2>&1 | grep -q 'contact:' || return 1
+  [[ -n $ended ]] && ! grep -q 'contact:' < <(docker logs "$1" 2>&1) || return 1
   reason=${ended#* }
   only_late "$reason" "${ended%% *}" "$(
     for vehicle in $(members vehicle); do docker logs "$vehicle" 2>&1; done | scans_missed
@@ -226,6 +226,6 @@ reconnect() { in_network_of "$1" iptables -F; }
 no_contact() {
   local world
   for world in $(members world); do
-    if docker logs "$world" 2>&1 | grep -m 3 'contact:'; then fail "vehicles touched"; fi
+    if grep -m 3 'contact:' < <(docker logs "$world" 2>&1); then fail "vehicles touched"; fi
   done
 }

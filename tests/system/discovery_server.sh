@@ -16,7 +16,7 @@ supervise() { exec sh "$REPOSITORY/config/deploy/discovery_server.sh" "$@"; }
 supervise "${settings[@]}" -l 127.0.0.1 -p "$PORT" >"$SCRATCH/server.log" 2>&1 &
 PID[server]=$!
 
-server() { children_of "${PID[server]}" | head -n 1; }
+server() { head -n 1 < <(children_of "${PID[server]}"); }
 # serves_again OLD: another process than that one holds the port.
 serves_again() {
   local now

@@ -97,7 +97,7 @@ said_to() {
   timeout 3 cat <&"$socket" 2>/dev/null || true
   exec {socket}>&-
 }
-first_line() { said_to "$A" | head -n 1 | tr -d '\r'; }
+first_line() { head -n 1 < <(said_to "$A") | tr -d '\r'; }
 
 late=$(metric "$A" giveway_vehicle_late_scans_total)
 missed=$(metric "$B" giveway_vehicle_deadline_missed_total)

@@ -27,7 +27,7 @@ for page in "${pages[@]}"; do
   "$FLEETCTL" help $page | cmp -s - help || fail "help $page is not $page --help"
   [[ $(wc -L <help) -le 80 ]] || fail "$page --help: $(wc -L <help) columns"
   ! grep -nE 'UINT|4294967295|TEXT:' help || fail "$page --help names a type of a program"
-  sed -n '/^Examples:/,/^$/p' help | grep -q "fleetctl $page" || fail "$page --help: no example of its own"
+  grep -q "fleetctl $page" < <(sed -n '/^Examples:/,/^$/p' help) || fail "$page --help: no example of its own"
   for columns in 66 120; do
     wide=$(on_terminal "$columns" "$FLEETCTL $page --help" | wc -L)
     [[ $wide -le $columns ]] || fail "$page --help: $wide columns on a terminal of $columns"

@@ -73,8 +73,10 @@ for _ in $(seq 400); do
 done
 domain=
 for _ in $(seq 200); do
-  domain=$(for pid in $(children_of "$tuning"); do domain_of "$pid"; done | head -n 1)
-  [[ -z $domain ]] || break
+  for pid in $(children_of "$tuning"); do
+    domain=$(domain_of "$pid")
+    [[ -z $domain ]] || break 2
+  done
   sleep 0.05
 done
 kill -INT "$tuning"
