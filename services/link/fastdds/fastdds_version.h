@@ -25,6 +25,7 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -118,6 +119,10 @@ inline rtps::SerializedPayload_t* AsPassed(rtps::SerializedPayload_t& payload) {
 inline const rtps::SerializedPayload_t& PayloadOf(const rtps::SerializedPayload_t* passed) {
   return *passed;
 }
+// What a transport is given to send, as far as the pace of asking needs it: ask_pace.h.
+inline std::span<const std::uint8_t> PacedBytes(const rtps::octet* bytes, std::uint32_t size) {
+  return {bytes, size};
+}
 // Whether a sample that was deserialized is all of it: what ends early is an exception here.
 inline bool IsWhole(dds::TopicDataType&, const rtps::SerializedPayload_t*, void*) { return true; }
 
@@ -198,6 +203,11 @@ inline std::uint32_t LargestSize(const dds::TopicDataType& type) {
 inline rtps::SerializedPayload_t& AsPassed(rtps::SerializedPayload_t& payload) { return payload; }
 inline const rtps::SerializedPayload_t& PayloadOf(const rtps::SerializedPayload_t& passed) {
   return passed;
+}
+// The library itself asks less and less often.
+inline std::span<const std::uint8_t> PacedBytes(const std::vector<transport::NetworkBuffer>&,
+                                                std::uint32_t) {
+  return {};
 }
 // Fast CDR 2 takes bytes that end where a member does for a sample of an older, shorter type, and
 // leaves the rest as it is.
@@ -340,7 +350,7 @@ class ForwardingTransport : public transport::ChainingTransport {
   using ChainingTransport::ChainingTransport;
   bool send(rtps::SenderResource* below, GIVEWAY_SENT bytes, std::uint32_t size,
             rtps::LocatorsIterator* from, rtps::LocatorsIterator* to,
-            const std::chrono::steady_clock::time_point& timeout) final {
+            const std::chrono::steady_clock::time_point& timeout) override {
     return below->send(bytes, size, from, to, timeout);
   }
 };

@@ -14,6 +14,7 @@
 #include "services/link/fastdds/joined_groups.h"
 #include "services/link/fastdds/packets_of_process.h"
 #include "services/link/fastdds/topics.h"
+#include "services/link/packet_filter/ask_pace.h"
 #include "services/link/packet_filter/discovery_list.h"
 #include "services/link/packet_filter/lease_watch.h"
 
@@ -71,6 +72,15 @@ class FilteredTransport final : public ForwardingTransport {
     return opened;
   }
 
+  // On the library's threads. What is not sent is repeated by the library: see ask_pace.h.
+  bool send(rtps::SenderResource* below, GIVEWAY_SENT bytes, std::uint32_t size,
+            rtps::LocatorsIterator* from, rtps::LocatorsIterator* to,
+            const std::chrono::steady_clock::time_point& timeout) override {
+    const std::optional<PrefixBytes> asked = AskedParticipant(PacedBytes(bytes, size));
+    if (asked.has_value() && !MayAsk(*asked)) return true;
+    return ForwardingTransport::send(below, bytes, size, from, to, timeout);
+  }
+
   // On the library's threads, one a port.
   void receive(transport::TransportReceiverInterface* receiver, const rtps::octet* bytes,
                std::uint32_t size, const rtps::Locator_t& local,
@@ -83,6 +93,7 @@ class FilteredTransport final : public ForwardingTransport {
     if (verdict.announces) {
       announcement.assign(bytes, bytes + verdict.bytes);
       HideTypes(announcement);
+      ShortenLeases(announcement, PacketFilter::kLongestLease);
       bytes = announcement.data();
     }
     receiver->OnDataReceived(bytes, static_cast<std::uint32_t>(verdict.bytes), local, remote);
@@ -98,17 +109,25 @@ class FilteredTransport final : public ForwardingTransport {
     const SteadyTime now(steady_clock::now().time_since_epoch());
     const std::scoped_lock lock(mutex_);
     const PacketVerdict verdict = filter_.Check(packet, source, now);
-    if (verdict.drop == PacketDrop::kNone && descriptor_.options.says_farewell &&
-        leases_.Hear(packet.first(verdict.bytes), now)) {
+    if (verdict.drop != PacketDrop::kNone) return verdict;
+    const Bytes sound = packet.first(verdict.bytes);
+    ask_pace_.Hear(sound);
+    if (descriptor_.options.says_farewell && leases_.Hear(sound, now)) {
       *farewell = leases_.TakeFarewell(now);
     }
     return verdict;
+  }
+  bool MayAsk(const PrefixBytes& participant) {
+    const SteadyTime now(steady_clock::now().time_since_epoch());
+    const std::scoped_lock lock(mutex_);
+    return ask_pace_.MayAsk(participant, now);
   }
 
   FilteredDescriptor descriptor_;
   std::mutex mutex_;
   PacketFilter filter_;  // guarded by mutex_
   LeaseWatch leases_;    // guarded by mutex_
+  AskPace ask_pace_;     // guarded by mutex_
 };
 
 transport::TransportInterface* FilteredDescriptor::create_transport() const {

@@ -1,7 +1,8 @@
 // The profile set's UDP transport with the packet filter between it and the library: a Fast DDS
 // chaining transport that drops what no sound sender sends, and sockets that hear the groups they
 // joined on the interfaces they joined them on, and no others. In the name of a dead participant it
-// sends a farewell: lease_watch.h.
+// sends a farewell (lease_watch.h), and it asks one that does not answer less and less often
+// (ask_pace.h).
 //
 // Shared memory, where a profile names it, is not filtered: only processes of this user on this
 // machine can write into it.

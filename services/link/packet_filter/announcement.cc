@@ -1,6 +1,7 @@
 #include "services/link/packet_filter/announcement.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "services/link/packet_filter/submessage_check.h"
 
@@ -27,6 +28,14 @@ bool StandsOnceAtMost(const Submessage& list, std::uint16_t id, std::size_t byte
   return FindParameter(list, behind, id).data() == nullptr;
 }
 
+// Its lease, in the byte order of its list: seconds, and a fraction in units of 2^-32.
+std::optional<Submessage> LeaseOf(const Submessage& announcement) {
+  std::optional<Submessage> lease = ParametersOf(announcement);
+  if (!lease) return std::nullopt;
+  lease->body = FindParameter(*lease, 0, kLeaseDuration);
+  return lease->body.size() < kLeaseBytes ? std::nullopt : lease;
+}
+
 bool NamesNoOtherEntity(const Submessage& list) {
   const Bytes guid = FindParameter(list, 0, kParticipantGuid);
   return guid.empty() || std::equal(kParticipantEntity.begin(), kParticipantEntity.end(),
@@ -50,6 +59,14 @@ std::array<std::uint8_t, 8> BigEndian(std::int64_t number) {
 }
 
 }  // namespace
+
+std::size_t PrefixHash::operator()(const PrefixBytes& prefix) const {
+  std::uint64_t low;
+  std::uint32_t high;
+  std::memcpy(&low, prefix.data(), sizeof low);
+  std::memcpy(&high, prefix.data() + sizeof low, sizeof high);
+  return (low ^ high) * 0x9e37'79b9'7f4a'7c15U >> 16U;
+}
 
 bool IsAnnouncement(const Submessage& submessage) {
   return submessage.kind == SubmessageKind::kData &&
@@ -75,12 +92,25 @@ std::optional<PrefixBytes> AnnouncedParticipant(const Submessage& announcement) 
 }
 
 std::optional<Nanoseconds> AnnouncedLease(const Submessage& announcement) {
-  std::optional<Submessage> lease = ParametersOf(announcement);
+  const std::optional<Submessage> lease = LeaseOf(announcement);
   if (!lease) return std::nullopt;
-  lease->body = FindParameter(*lease, 0, kLeaseDuration);
-  if (lease->body.size() < 8) return std::nullopt;
   const std::uint64_t fraction_ns = (std::uint64_t{lease->U32(4)} * 1'000'000'000) >> 32U;
   return std::chrono::seconds(lease->U32(0)) + Nanoseconds(fraction_ns);
+}
+
+void ShortenLeases(std::span<std::uint8_t> packet, std::chrono::seconds most) {
+  SubmessageWalk walk(packet);
+  Submessage part;
+  while (walk.Next(&part)) {
+    if (!IsAnnouncement(part)) continue;
+    const std::optional<Submessage> lease = LeaseOf(part);
+    if (!lease || lease->U32(0) < most.count()) continue;
+    auto seconds = static_cast<std::uint32_t>(most.count());
+    if (!lease->IsLittleEndian()) seconds = __builtin_bswap32(seconds);
+    std::uint8_t* const at = packet.data() + (lease->body.data() - packet.data());
+    std::memcpy(at, &seconds, sizeof seconds);
+    std::memset(at + sizeof seconds, 0, sizeof seconds);  // the fraction
+  }
 }
 
 std::int64_t AnnouncementNumber(const Submessage& announcement) {

@@ -4,8 +4,11 @@
 #pragma once
 
 #include <array>
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "services/link/packet_filter/rtps_bytes.h"
 #include "services/types/time.h"
@@ -14,6 +17,9 @@ namespace giveway::link {
 
 // A participant's GUID is its prefix, and this entity id.
 using PrefixBytes = std::array<std::uint8_t, 12>;
+struct PrefixHash {
+  std::size_t operator()(const PrefixBytes& prefix) const;
+};
 inline constexpr std::array<std::uint8_t, 4> kParticipantEntity = {0x00, 0x00, 0x01, 0xc1};
 
 // Whether a sound submessage is one of a participant's announcer.
@@ -28,6 +34,8 @@ bool IsUnambiguous(const Submessage& announcement);
 std::optional<PrefixBytes> AnnouncedParticipant(const Submessage& announcement);
 // How long it may be silent; empty in a farewell, or where there is none.
 std::optional<Nanoseconds> AnnouncedLease(const Submessage& announcement);
+// Makes each lease in a packet that was found sound `most` where it is longer, or endless.
+void ShortenLeases(std::span<std::uint8_t> packet, std::chrono::seconds most);
 std::int64_t AnnouncementNumber(const Submessage& announcement);
 
 using Farewell = std::array<std::uint8_t, 76>;

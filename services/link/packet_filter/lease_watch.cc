@@ -1,22 +1,8 @@
 #include "services/link/packet_filter/lease_watch.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace giveway::link {
-namespace {
-
-constexpr std::size_t kSenderAt = 8;  // its prefix, in a packet's header
-
-}  // namespace
-
-std::size_t LeaseWatch::PrefixHash::operator()(const PrefixBytes& prefix) const {
-  std::uint64_t low;
-  std::uint32_t high;
-  std::memcpy(&low, prefix.data(), sizeof low);
-  std::memcpy(&high, prefix.data() + sizeof low, sizeof high);
-  return (low ^ high) * 0x9e37'79b9'7f4a'7c15U >> 16U;
-}
 
 bool LeaseWatch::Hear(Bytes packet, SteadyTime now) {
   PrefixBytes sender;

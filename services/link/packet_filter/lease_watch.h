@@ -33,9 +33,6 @@ class LeaseWatch {
   std::size_t Participants() const { return participants_.size(); }
 
  private:
-  struct PrefixHash {
-    std::size_t operator()(const PrefixBytes& prefix) const;
-  };
   struct Announced {
     SteadyTime heard{0};
     Nanoseconds lease{0};

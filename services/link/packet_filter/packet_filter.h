@@ -7,6 +7,7 @@
 // A packet that is sound, of a plausible sequence number and a forged GUID passes.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 
@@ -38,9 +39,11 @@ struct PacketVerdict {
 class PacketFilter {
  public:
   // New participants: so many at once, in addition to two a vehicle, and so many a second after
-  // that.
+  // that; and how long one may be silent at most, whatever it announces. So no more than 736
+  // strangers are known at once.
   static constexpr std::uint32_t kStrangersAtOnce = 256;
-  static constexpr std::int64_t kStrangersPerSecond = 16;
+  static constexpr std::int64_t kStrangersPerSecond = 4;
+  static constexpr std::chrono::seconds kLongestLease{120};
 
   explicit PacketFilter(const PacketFilterOptions& options);
 

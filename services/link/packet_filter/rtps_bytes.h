@@ -12,6 +12,7 @@ namespace giveway::link {
 using Bytes = std::span<const std::uint8_t>;
 
 inline constexpr std::size_t kRtpsHeaderBytes = 20;
+inline constexpr std::size_t kSenderAt = 8;  // in the header: the prefix of the sender
 inline constexpr std::size_t kSubmessageHeaderBytes = 4;
 inline constexpr std::size_t kEncapsulation = 4;  // bytes, in front of a payload
 

@@ -73,6 +73,28 @@ TEST(LeaseWatch, SendsWhatAnHonestParticipantWouldSend) {
   EXPECT_EQ(another.Participants(), 0U) << "a participant that left has none";
 }
 
+TEST(ShortenLeases, LeavesNoneLongerThanItMayBe) {
+  for (const bool little : {true, false}) {
+    const auto shortened = [little](std::uint32_t lease_s) {
+      auto packet = RtpsPacket(kDying, test::kEProsima, little)
+                        .InfoTs()
+                        .Announcement(kDying, 1, lease_s)
+                        .Bytes();
+      ShortenLeases(packet, seconds(120));
+      return packet;
+    };
+    const auto of = [little](std::uint32_t lease_s) {
+      return RtpsPacket(kDying, test::kEProsima, little)
+          .InfoTs()
+          .Announcement(kDying, 1, lease_s)
+          .Bytes();
+    };
+    EXPECT_EQ(shortened(119), of(119));
+    EXPECT_EQ(shortened(121), of(120));
+    EXPECT_EQ(shortened(0x7fff'ffff), of(120)) << "endless";
+  }
+}
+
 TEST(LeaseWatch, LeavesToAServerWhomItSpeaksFor) {
   LeaseWatch watch;
   watch.Hear(RtpsPacket(kLiving).Announcement(kDying, 1, kLease_s).Bytes(), kFirst);

@@ -423,7 +423,7 @@ TEST(PacketFilter, LetsStrangersInNoFasterThanAFleetGrows) {
     EXPECT_TRUE(i % 100 != 0 || announce(kPeer) == PacketDrop::kNone)
         << "those that are in stay in";
   }
-  EXPECT_LE(let_in, 256 + 2 * 2 + 5 * 16 + 1);
+  EXPECT_LE(let_in, 256 + 2 * 2 + 5 * 4 + 1);
   EXPECT_GE(let_in, 256);
   now += seconds(1);
   EXPECT_EQ(announce(Stranger(6000)), PacketDrop::kNone) << "and afterwards it may grow again";
