@@ -66,6 +66,7 @@ FilteredTransportOptions FilterOf(const LinkOptions& options,
                                   const dds::DomainParticipantQos& qos) {
   return {.filter = {.largest_sample = LargestSample(),
                      .fleet_size = options.fleet_size,
+                     .strangers = options.strangers,
                      .loopback_only = IsLoopback(options.interface),
                      .secured = IsSecured(qos),
                      .of_all_bodies = options.hears_all_bodies,

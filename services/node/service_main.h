@@ -17,6 +17,10 @@
 
 namespace giveway {
 
+// A service knows its fleet, unlike a tool that starts next to one: so many tools and foreign
+// participants may be there when it starts. Each that does not answer costs it time: ask_pace.h.
+inline constexpr std::uint32_t kStrangers = 64;
+
 inline link::LinkOptions LinkOptionsOf(const ServiceFlags& flags, const Scenario& scenario,
                                        QosProfiles qos) {
   return {
@@ -25,6 +29,7 @@ inline link::LinkOptions LinkOptionsOf(const ServiceFlags& flags, const Scenario
       .qos = std::move(qos),
       .area = scenario.area,
       .fleet_size = static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size()),
+      .strangers = kStrangers,
       .partition_free = flags.partition_free,
       .impairment = {},
       .discovery_servers = flags.discovery_servers,

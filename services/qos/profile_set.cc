@@ -170,11 +170,14 @@ const Transport* ProfileSet::FindTransport(std::string_view id) const {
   return found == transports.end() ? nullptr : &*found;
 }
 
+const Participation* ProfileSet::OurParticipation() const {
+  const auto ours = std::ranges::find(participations, kParticipantProfile, &Participation::profile);
+  return ours == participations.end() ? nullptr : &*ours;
+}
+
 bool UsesSharedMemory(const ProfileSet& set) {
-  const auto ours =
-      std::ranges::find(set.participations, kParticipantProfile, &Participation::profile);
-  return ours != set.participations.end() &&
-         std::ranges::any_of(ours->transports, [&](const auto& named) {
+  const Participation* const ours = set.OurParticipation();
+  return ours != nullptr && std::ranges::any_of(ours->transports, [&](const auto& named) {
            const Transport* const transport = set.FindTransport(named.first);
            return transport != nullptr && transport->type == "SHM";
          });

@@ -58,6 +58,9 @@ struct Participation {
   std::map<std::string, Place> limits;  // elements that slow it down, or that code overrides
 };
 
+// Of world, vehicles and observers alike.
+inline constexpr std::string_view kParticipantProfile = "giveway_participant";
+
 struct ProfileSet {
   std::string file;
   std::vector<Profile> profiles;  // in the order of the file
@@ -69,10 +72,9 @@ struct ProfileSet {
   // Null if there is none.
   const Profile* Find(Owner owner, std::string_view name) const;
   const Transport* FindTransport(std::string_view id) const;
+  // How kParticipantProfile takes part; null if there is none.
+  const Participation* OurParticipation() const;
 };
-
-// Of world, vehicles and observers alike.
-inline constexpr std::string_view kParticipantProfile = "giveway_participant";
 
 // Whether that profile names a transport through shared memory.
 bool UsesSharedMemory(const ProfileSet& set);

@@ -43,14 +43,14 @@ Nanoseconds TimeLimit(const Scenario& scenario, bool lockstep) {
 }
 
 link::LinkOptions ObserverOptions(const FleetSpec& spec, const Scenario& scenario) {
-  return {spec.domain,
-          spec.options.interface,
-          ReadSoundQos(spec.qos_file),
-          scenario.area,
-          static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size()),
-          false,
-          {},
-          spec.options.discovery_servers};
+  return {
+      .domain = spec.domain,
+      .interface = spec.options.interface,
+      .qos = ReadSoundQos(spec.qos_file),
+      .area = scenario.area,
+      .fleet_size = static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size()),
+      .impairment = {},
+      .discovery_servers = spec.options.discovery_servers};
 }
 
 TableView MakeView(const Scenario& scenario, std::uint32_t domain, const FleetWatch& watch) {

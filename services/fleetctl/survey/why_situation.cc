@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <boost/uuid/detail/md5.hpp>
 #include <set>
 

@@ -85,10 +85,7 @@ bool ShareNetwork(const ProcessSituation& a, const ProcessSituation& b) {
 }
 
 const qos::Participation* ParticipationOf(const ProcessSituation& process) {
-  if (!process.profiles) return nullptr;
-  const auto& all = process.profiles->participations;
-  const auto found = std::ranges::find(all, qos::kParticipantProfile, &qos::Participation::profile);
-  return found == all.end() ? nullptr : &*found;
+  return process.profiles ? process.profiles->OurParticipation() : nullptr;
 }
 
 bool IsClient(std::int64_t protocol) {

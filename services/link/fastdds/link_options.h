@@ -19,6 +19,7 @@ struct LinkOptions {
   QosProfiles qos;                      // a complete Fast DDS XML set, see ReadProfileFile
   std::string area = "main";            // [a-z0-9_-]+
   std::uint32_t fleet_size = 2;         // sets history depths and announcement periods
+  std::uint32_t strangers = 256;        // participants beyond the fleet, at once: packet_filter.h
   bool partition_free = false;          // vehicle: a second beacon, for readers without a partition
   Impairment impairment = {};           // of what this process hears; its seed is set
   // Overrides the profile set's discovery; none: as the set says.

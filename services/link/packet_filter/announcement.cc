@@ -68,6 +68,12 @@ std::size_t PrefixHash::operator()(const PrefixBytes& prefix) const {
   return (low ^ high) * 0x9e37'79b9'7f4a'7c15U >> 16U;
 }
 
+PrefixBytes SenderOf(Bytes packet) {
+  PrefixBytes sender;
+  std::copy_n(packet.begin() + kSenderAt, sender.size(), sender.begin());
+  return sender;
+}
+
 bool IsAnnouncement(const Submessage& submessage) {
   return submessage.kind == SubmessageKind::kData &&
          std::equal(kAnnouncer.begin(), kAnnouncer.end(), submessage.body.begin() + kWriterInData);

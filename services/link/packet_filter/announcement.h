@@ -20,6 +20,8 @@ using PrefixBytes = std::array<std::uint8_t, 12>;
 struct PrefixHash {
   std::size_t operator()(const PrefixBytes& prefix) const;
 };
+// Whose packet it is, by its header.
+PrefixBytes SenderOf(Bytes packet);
 inline constexpr std::array<std::uint8_t, 4> kParticipantEntity = {0x00, 0x00, 0x01, 0xc1};
 
 // Whether a sound submessage is one of a participant's announcer.

@@ -79,9 +79,7 @@ bool AskPace::MayAsk(const PrefixBytes& participant, SteadyTime now) {
 
 void AskPace::Hear(Bytes packet) {
   if (asked_.empty()) return;
-  PrefixBytes sender;
-  std::copy_n(packet.begin() + kSenderAt, sender.size(), sender.begin());
-  const auto known = asked_.find(sender);
+  const auto known = asked_.find(SenderOf(packet));
   if (known == asked_.end()) return;
   SubmessageWalk walk(packet);
   Submessage part;

@@ -5,8 +5,7 @@
 namespace giveway::link {
 
 bool LeaseWatch::Hear(Bytes packet, SteadyTime now) {
-  PrefixBytes sender;
-  std::copy_n(packet.begin() + kSenderAt, sender.size(), sender.begin());
+  const PrefixBytes sender = SenderOf(packet);
   const auto known = participants_.find(sender);
   if (known != participants_.end()) known->second.heard = now;
   bool announces = false;

@@ -13,7 +13,6 @@ namespace {
 constexpr std::array<std::uint8_t, 4> kMagic = {'R', 'T', 'P', 'S'};
 constexpr std::size_t kVersionAt = 4;
 constexpr std::size_t kVendorAt = 6;
-constexpr std::size_t kPrefixAt = 8;
 constexpr std::uint8_t kMajorVersion = 2;
 constexpr std::array<std::uint8_t, 2> kEProsima = {0x01, 0x0f};
 
@@ -83,13 +82,18 @@ WriterGuid CounterGuid(const Submessage& submessage, const std::uint8_t* prefix)
   return guid;
 }
 
+// New participants that may come at once: all of a fleet, twice, and strangers.
+std::int64_t AtOnce(const PacketFilterOptions& options) {
+  return options.strangers + 2 * std::int64_t{options.fleet_size};
+}
+
 }  // namespace
 
 PacketFilter::PacketFilter(const PacketFilterOptions& options)
     : options_(options),
       writers_(options.writers != 0 ? options.writers : WritersOf(options.fleet_size), options.seed,
                options.fleet_size, options.of_all_bodies),
-      tokens_(kStrangersAtOnce + 2 * std::int64_t{options.fleet_size}) {}
+      tokens_(AtOnce(options)) {}
 
 PacketVerdict PacketFilter::Check(Bytes packet, std::uint32_t source, SteadyTime now) {
   if (options_.loopback_only && !IsLoopback(source)) return {PacketDrop::kForeignSource};
@@ -132,7 +136,7 @@ PacketVerdict PacketFilter::CheckParts(Bytes packet) const {
 
 // By what is known of the writers it is from.
 PacketDrop PacketFilter::CheckWriters(Bytes packet, SteadyTime now) {
-  const std::uint8_t* prefix = packet.data() + kPrefixAt;
+  const std::uint8_t* prefix = packet.data() + kSenderAt;
   SubmessageWalk walk(packet);
   Submessage part;
   while (walk.Next(&part)) {
@@ -188,7 +192,7 @@ bool PacketFilter::IsWelcome(const Submessage& announcement, SteadyTime now) {
 bool PacketFilter::TakeToken(SteadyTime now) {
   constexpr Nanoseconds kApart =
       std::chrono::nanoseconds(std::chrono::seconds(1)) / kStrangersPerSecond;
-  const std::int64_t most = kStrangersAtOnce + 2 * std::int64_t{options_.fleet_size};
+  const std::int64_t most = AtOnce(options_);
   if (token_due_ == SteadyTime{0}) token_due_ = now + kApart;
   if (now >= token_due_) {
     const std::int64_t due = 1 + (now - token_due_) / kApart;

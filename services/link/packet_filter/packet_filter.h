@@ -21,6 +21,7 @@ namespace giveway::link {
 struct PacketFilterOptions {
   std::uint32_t largest_sample = 65536;  // bytes of the largest type
   std::uint32_t fleet_size = 2;          // decides how many writers are remembered
+  std::uint32_t strangers = 256;         // new participants at once, in addition to two a vehicle
   std::size_t writers = 0;               // to remember, at least; 0: as fleet_size decides
   bool loopback_only = false;            // hears 127.0.0.0/8 and nothing else
   bool secured = false;                  // DDS-Security is on: its submessages pass
@@ -38,10 +39,8 @@ struct PacketVerdict {
 
 class PacketFilter {
  public:
-  // New participants: so many at once, in addition to two a vehicle, and so many a second after
-  // that; and how long one may be silent at most, whatever it announces. So no more than 736
-  // strangers are known at once.
-  static constexpr std::uint32_t kStrangersAtOnce = 256;
+  // New participants after the first ones; and how long one may be silent at most, whatever it
+  // announces. Of strangers that fall silent the library so knows 480 and the first ones at most.
   static constexpr std::int64_t kStrangersPerSecond = 4;
   static constexpr std::chrono::seconds kLongestLease{120};
 

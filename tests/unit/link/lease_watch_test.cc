@@ -75,19 +75,16 @@ TEST(LeaseWatch, SendsWhatAnHonestParticipantWouldSend) {
 
 TEST(ShortenLeases, LeavesNoneLongerThanItMayBe) {
   for (const bool little : {true, false}) {
-    const auto shortened = [little](std::uint32_t lease_s) {
-      auto packet = RtpsPacket(kDying, test::kEProsima, little)
-                        .InfoTs()
-                        .Announcement(kDying, 1, lease_s)
-                        .Bytes();
-      ShortenLeases(packet, seconds(120));
-      return packet;
-    };
     const auto of = [little](std::uint32_t lease_s) {
       return RtpsPacket(kDying, test::kEProsima, little)
           .InfoTs()
           .Announcement(kDying, 1, lease_s)
           .Bytes();
+    };
+    const auto shortened = [&of](std::uint32_t lease_s) {
+      test::PacketBytes packet = of(lease_s);
+      ShortenLeases(packet, seconds(120));
+      return packet;
     };
     EXPECT_EQ(shortened(119), of(119));
     EXPECT_EQ(shortened(121), of(120));

@@ -430,13 +430,13 @@ TEST(PacketFilter, LetsStrangersInNoFasterThanAFleetGrows) {
 }
 
 TEST(PacketFilter, NamesParticipantsByWhatTheyAnnounceNotByWhoSendsIt) {
-  PacketFilter filter({.fleet_size = 0});
+  PacketFilter filter({.fleet_size = 0, .strangers = 64});
   int let_in = 0;
   for (std::uint32_t i = 0; i < 1000; ++i) {
     const PacketBytes packet = RtpsPacket(kPeer).Announcement(Stranger(i), i + 1).Bytes();
     let_in += DropOf(packet, kStart, &filter) == PacketDrop::kNone ? 1 : 0;
   }
-  EXPECT_EQ(let_in, 256);
+  EXPECT_EQ(let_in, 64);
 }
 
 }  // namespace
