@@ -22,7 +22,7 @@ struct LifeEnd {
 };
 
 inline constexpr const char* kSharedMemoryDeleted =
-    "its shared memory was deleted, newcomers cannot receive it: restarts itself over UDP alone";
+    "its shared memory was deleted or replaced, not all receive it: restarts itself over UDP alone";
 
 // Where its shared memory was deleted it comes back without.
 LifeEnd WithoutLostMemory(LifeEnd end, bool shared_memory_is_gone);

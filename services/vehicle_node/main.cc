@@ -51,13 +51,17 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario, link::LinkOpti
   const auto session = flags.resume ? std::optional(resumed.session) : std::nullopt;
   // One that has a place keeps it; one that waits for its first can start again at once.
   const auto starts_again = [&] { return !flags.resume && link.SharedMemoryIsGone(); };
+  const auto over_udp = [] {
+    LogError(kSharedMemoryDeleted);
+    return WithoutLostMemory({0, NewFlags{}}, true);
+  };
+  // Before it asks for a place: the world may give one to a session that would not be there any
+  // more.
+  if (starts_again()) return over_udp();
   const auto entry = Join(
       {.link = &link, .clock = &clock, .health = &health, .scenario = &scenario},
       [&] { return stop.IsSet() || starts_again(); }, VehicleId{flags.id}, session);
-  if (!entry && starts_again()) {
-    LogError(kSharedMemoryDeleted);
-    return WithoutLostMemory({0, NewFlags{}}, true);
-  }
+  if (!entry && starts_again()) return over_udp();
   if (!entry) return {};
   if (!entry->accepted) return {2, {}};
   PublishIdentity({entry->vehicle, link.ParticipantText()});

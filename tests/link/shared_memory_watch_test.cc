@@ -51,6 +51,24 @@ TEST(SharedMemoryWatch, TakesNothingElseForIt) {
   EXPECT_FALSE(link::IsSegmentGone({"/dev/shm/fastrtps_6822afdd7747948x_el (deleted)"}));
 }
 
+TEST(SharedMemoryWatch, KnowsThePortsThatAProcessReceivesAt) {
+  EXPECT_THAT(
+      link::PortsOf({"/dev/shm/fastrtps_port7664_el", "/dev/shm/fastdds_port7665_el",
+                     "/dev/shm/fastrtps_port7666", "/dev/shm/fastrtps_port7667_el (deleted)",
+                     "/dev/shm/fastrtps_6822afdd7747948d_el", "/tmp/fastrtps_port7668_el"}),
+      testing::ElementsAre("/dev/shm/fastdds_port7665", "/dev/shm/fastrtps_port7664"));
+}
+
+TEST(SharedMemoryWatch, KnowsWhoHoldsAFormerFileOfAPort) {
+  const std::string held =
+      "7f25aadf9000-7f25aae09000 rw-s 00000000 00:1b 22871   /dev/shm/fastrtps_port7664 (deleted)\n"
+      "7f25aae09000-7f25aae19000 rw-s 00000000 00:1b 22934   /dev/shm/fastrtps_port7665\n";
+  EXPECT_TRUE(link::HoldsDeleted(held, {"/dev/shm/fastrtps_port7664"}));
+  EXPECT_FALSE(link::HoldsDeleted(held, {"/dev/shm/fastrtps_port7665"}));
+  EXPECT_FALSE(link::HoldsDeleted(held, {"/dev/shm/fastrtps_port766"}));
+  EXPECT_FALSE(link::HoldsDeleted("", {"/dev/shm/fastrtps_port7664"}));
+}
+
 TEST(DeletedSharedMemory, AnObserverThatLostItReceivesAVehicleThatStartsLater) {
   const DomainLock domain;
   link::ObserverLink observer(OptionsInSharedMemory(domain));
