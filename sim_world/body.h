@@ -29,6 +29,7 @@ struct Body {
   SonarState sonar;
   Goal goal;
   Pose start_world;
+  Nanoseconds sonar_refresh{0};  // as VehicleOptions::sonar_refresh
 
   double ForwardSpeed() const { return TwistFromWheels(profile.drive, wheels).forward_m_s; }
 };

@@ -20,13 +20,14 @@ struct BodyState {
   WheelSpeeds wheels;
   WheelAngles counted;
   MotorCommand command;  // the one held
+  bool present = true;   // false: it was removed from there
 };
 
 struct Checkpoint {
   Tick now = kNoTick;
   std::uint32_t driven_ticks = 0;  // since the start signal
   std::uint32_t contacts = 0;
-  std::vector<BodyState> bodies;         // of those present
+  std::vector<BodyState> bodies;         // of those that joined
   std::vector<ObstacleState> obstacles;  // in the order of the scenario
   std::vector<double> door_openings;     // in the order of the scenario, [0, 1]
   std::vector<ContactPair> touching;

@@ -45,7 +45,7 @@ void Sensing::Fill(double before_s, double dt_s, const Collidables& collidables,
   at_end_ = before_s == 0;
 }
 
-void Sensing::Sense(Tick tick, double dt_s, const Collidables& collidables,
+void Sensing::Sense(const SonarTick& tick, double dt_s, const Collidables& collidables,
                     const ParallelFor& parallel, std::span<Body> bodies) {
   at_end_ = false;
   const auto instant_before = [&](double before_s) {

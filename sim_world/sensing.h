@@ -27,8 +27,8 @@ class Sensing {
   void Erase(std::size_t index);
 
   // Reads every present body's ultrasonics after the tick that `collidables` made.
-  void Sense(Tick tick, double dt_s, const Collidables& collidables, const ParallelFor& parallel,
-             std::span<Body> bodies);
+  void Sense(const SonarTick& tick, double dt_s, const Collidables& collidables,
+             const ParallelFor& parallel, std::span<Body> bodies);
 
   // Everything as it is at the end of the tick.
   const Scene& SceneAtEnd(double dt_s, const Collidables& collidables,

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "services/types/check.h"
+#include "sim_world/start_place.h"
 
 namespace giveway::sim {
 namespace {
@@ -62,6 +63,7 @@ void World::Insert(const VehicleOptions& options) {
   body.goal = options.goal;
   body.goal.set = HasGoal(options);
   body.start_world = options.start_world;
+  body.sonar_refresh = options.sonar_refresh;
   const auto at = std::ranges::lower_bound(bodies_, options.id, {}, &Body::vehicle);
   const auto place = at - bodies_.begin();
   bodies_.insert(at, body);
@@ -99,6 +101,7 @@ void World::Join(const VehicleOptions& options) {
     known->goal = options.goal;
     known->goal.set = HasGoal(options);
     known->start_world = options.start_world;
+    known->sonar_refresh = options.sonar_refresh;
     sensing_.Replace(ThingOf(*known), options.profile);
   } else {
     Insert(options);
@@ -135,11 +138,12 @@ void World::Forget(VehicleId vehicle) {
 bool World::IsFree(const VehicleOptions& options) const {
   const Motion wanted = StandingAt(options.profile, options.start_world);
   const auto touches = [&](const auto& other) { return GapAt(wanted, other, 0) <= kTouch_m; };
+  const double unaware_s = watchdog_ticks_ * dt_s_;
+  const double leaving_s = driving_ ? LeavingSeconds(options.profile) : 0;
   return !contacts_.TouchesWall(wanted) && std::ranges::none_of(bodies_, [&](const Body& body) {
-    return body.present && body.vehicle != options.id &&
-           touches(StandingAt(body.profile, body.world_from_body));
+    return body.present && body.vehicle != options.id && HitsWhileStopping(body, unaware_s, wanted);
   }) && std::ranges::none_of(obstacles_, [&](const MovingObstacle& obstacle) {
-    return touches(obstacle.Plan(false, dt_s_));
+    return HitsOnItsCourse(obstacle, leaving_s, dt_s_, wanted);
   }) && std::ranges::none_of(doors_, [&](const SlidingDoor& door) {
     return door.Opening() < 1 && touches(door.Plan(false, 0, dt_s_));
   });
@@ -165,9 +169,9 @@ bool World::Take(const MotorCommand& command) {
 Checkpoint World::Save() const {
   Checkpoint checkpoint{.now = now_, .driven_ticks = driven_ticks_, .contacts = contact_count_};
   for (const Body& body : bodies_) {
-    if (body.present) {
-      checkpoint.bodies.push_back(
-          {body.vehicle, body.world_from_body, body.wheels, body.counted, body.command});
+    if (body.joined) {
+      checkpoint.bodies.push_back({body.vehicle, body.world_from_body, body.wheels, body.counted,
+                                   body.command, body.present});
     }
   }
   for (const MovingObstacle& obstacle : obstacles_) {
@@ -183,7 +187,7 @@ bool World::Restore(const Checkpoint& checkpoint) {
   const bool fits = checkpoint.obstacles.size() == obstacles_.size() &&
                     checkpoint.door_openings.size() == doors_.size() &&
                     std::ranges::all_of(checkpoint.bodies, [&](const BodyState& state) {
-                      return Find(state.vehicle) != nullptr;
+                      return !state.present || Find(state.vehicle) != nullptr;
                     });
   if (!fits) return false;
   now_ = checkpoint.now;
@@ -194,7 +198,9 @@ bool World::Restore(const Checkpoint& checkpoint) {
   }
   for (const BodyState& state : checkpoint.bodies) {
     Body* body = Find(state.vehicle);
+    if (body == nullptr) continue;  // of a vehicle without a slot that was removed
     Appear(body);
+    body->present = state.present;
     body->world_from_body = state.world_from_body;
     body->wheels = state.wheels;
     body->counted = state.counted;

@@ -48,7 +48,8 @@ class World {
   void Remove(VehicleId vehicle);
   // Forgets the vehicle, which is not present.
   void Forget(VehicleId vehicle);
-  // Whether a vehicle could join by these options now: nothing else touches its start pose.
+  // Whether a vehicle could join by these options now: nothing else touches its start pose, nor
+  // will before it can have braked for the newcomer, or be evaded.
   bool IsFree(const VehicleOptions& options) const;
   // Keeps the command until a newer one arrives. False: refused, and counted.
   bool Take(const MotorCommand& command);
@@ -63,8 +64,9 @@ class World {
   void Advance(bool driving);
 
   Checkpoint Save() const;
-  // Continues from there: vehicles in the checkpoint are present, others are not. Returns false,
-  // and changes nothing, if it has unknown vehicles or is of another scenario.
+  // Continues from there: vehicles in the checkpoint have joined, and are present unless they were
+  // removed; others are not. Returns false, and changes nothing, if an unknown vehicle is present
+  // in it or it is of another scenario.
   bool Restore(const Checkpoint& checkpoint);
 
   Tick Now() const { return now_; }
@@ -92,12 +94,13 @@ class World {
   const Body* Find(VehicleId vehicle) const;
   void Insert(const VehicleOptions& options);
   void Appear(Body* body);
+  SonarTick SonarTickOf(bool driving) const;
   void Plan(bool driving);
   void PlanBody(bool driving, std::size_t i);
   const DriveFault* FaultOf(VehicleId vehicle) const;
   void PlanOthers(bool driving);
-  void FindPairs(bool driving);
-  void FindFirstPairs();
+  std::span<const NearPair> FindPairs(bool driving);
+  void FindFirstPairs(std::span<const Ball> of_bodies);
   void Note(const Hit& hit);
   void Settle();
   void SettleBody(std::size_t i);
@@ -116,6 +119,7 @@ class World {
   Collidables collidables_;               // as the last tick moved them
   std::vector<Ball> balls_;
   Neighbours neighbours_;
+  Neighbours body_neighbours_;  // of bodies alone, for their separation
   sim::Contacts contacts_;
   ActiveContacts active_contacts_;
   std::vector<Contact> new_contacts_;
@@ -125,6 +129,7 @@ class World {
   CommandCounters commands_;
   Tick now_ = kNoTick;
   std::uint32_t driven_ticks_ = 0;  // since the start signal
+  bool driving_ = false;            // in the last tick: obstacles move
 };
 
 }  // namespace giveway::sim

@@ -36,17 +36,27 @@ Ball BallRound(const Leaf& leaf, double dt_s, std::uint32_t thing) {
 
 void World::Advance(bool driving) {
   now_ = After(now_, 1);
-  if (driving) ++driven_ticks_;
+  driving_ = driving;
+  if (driving && ++driven_ticks_ == 1) {
+    for (Body& body : bodies_) body.sonar = {};  // how far a round was depends on the wait
+  }
   new_contacts_.clear();
   Plan(driving);
-  FindPairs(driving);
+  const std::span<const NearPair> near_bodies = FindPairs(driving);
   for (const Hit& hit : contacts_.StopAll(neighbours_.Pairs(), dt_s_, parallel_, &collidables_)) {
     Note(hit);
   }
   Settle();
-  if (driving) separation_.Observe(bodies_, collidables_, neighbours_.Pairs(), dt_s_);
+  if (driving) separation_.Observe(bodies_, collidables_, near_bodies, dt_s_);
   active_contacts_.EndIf([this](const ContactPair& pair) { return HasParted(pair); });
-  sensing_.Sense(now_, dt_s_, collidables_, parallel_, bodies_);
+  sensing_.Sense(SonarTickOf(driving), dt_s_, collidables_, parallel_, bodies_);
+}
+
+// While the run waits, slots go by on a count of their own. Draws are those of the tick to come: a
+// vehicle remembers the last of them, which so does not depend on the length of the wait.
+SonarTick World::SonarTickOf(bool driving) const {
+  if (driving) return {now_, Tick{driven_ticks_}, Tick{driven_ticks_}};
+  return {now_, Tick{driven_ticks_ + 1}, Tick{Number(now_) - driven_ticks_}};
 }
 
 // The motion of everything in this tick if nothing obstructed it.
@@ -97,13 +107,15 @@ void World::PlanOthers(bool driving) {
   }
 }
 
-// Pairs that may touch in this tick, or come nearer than any two did before.
-void World::FindPairs(bool driving) {
+// Finds the pairs that may touch in this tick. Returns, perhaps among others of these, the pairs of
+// bodies that may come nearer than any two did before: that may be far, and other things are not
+// searched that far.
+std::span<const NearPair> World::FindPairs(bool driving) {
   balls_.clear();
   std::size_t bodies = 0;
   for (std::uint32_t i = 0; i < collidables_.Count(); ++i) {
     if (collidables_.present[i] == 0) continue;
-    if (collidables_.IsBody(i)) ++bodies;
+    if (collidables_.IsBody(i)) ++bodies;  // their balls come first
     if (collidables_.IsLeaf(i)) {
       balls_.push_back(BallRound(collidables_.LeafOf(i), dt_s_, i));
     } else {
@@ -112,24 +124,30 @@ void World::FindPairs(bool driving) {
           {motion.start_world.position_world, motion.radius_m + TravelBound(motion, dt_s_), i});
     }
   }
-  if (driving && bodies > 1 && !separation_.Reach()) {
-    FindFirstPairs();
-    return;
+  const auto of_bodies = std::span<const Ball>(balls_).first(bodies);
+  const bool records = driving && bodies > 1;
+  const double record_m = records ? separation_.Reach().value_or(kTouch_m) : kTouch_m;
+  const bool alike = bodies == balls_.size();  // one search finds both
+  neighbours_.Find(balls_, alike ? std::max(kTouch_m, record_m) : kTouch_m, parallel_);
+  if (records && !separation_.Reach()) {
+    FindFirstPairs(of_bodies);
+  } else if (!alike && record_m > kTouch_m) {
+    body_neighbours_.Find(of_bodies, record_m, parallel_);
+  } else {
+    return neighbours_.Pairs();
   }
-  const double record_m = driving && bodies > 1 ? separation_.Reach().value() : 0;
-  neighbours_.Find(balls_, std::max(kTouch_m, record_m), parallel_);
+  return body_neighbours_.Pairs();
 }
 
 // Without a record to come nearer than: the nearest two, searched in ever wider circles. However
 // they move, the nearest in this tick is no further than they are now.
-void World::FindFirstPairs() {
+void World::FindFirstPairs(std::span<const Ball> of_bodies) {
   double nearest_m = std::numeric_limits<double>::infinity();
   double searched_m = 0;
   for (double margin_m = 1; nearest_m > searched_m; margin_m = std::min(4 * margin_m, nearest_m)) {
-    neighbours_.Find(balls_, margin_m, parallel_);
+    body_neighbours_.Find(of_bodies, margin_m, parallel_);
     searched_m = margin_m;
-    for (const NearPair& pair : neighbours_.Pairs()) {
-      if (!collidables_.IsBody(pair.a)) continue;
+    for (const NearPair& pair : body_neighbours_.Pairs()) {
       nearest_m =
           std::min(nearest_m, GapAt(collidables_.motions[pair.a], collidables_.motions[pair.b], 0));
     }
@@ -176,7 +194,7 @@ void World::Settle() {
   };
   parallel_(bodies_.size(), std::ref(settle));
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-    obstacles_[i].Settle(collidables_.motions[bodies_.size() + i], dt_s_);
+    obstacles_[i].Settle(collidables_.motions[bodies_.size() + i], driving_, dt_s_);
   }
   for (std::size_t i = 0; i < doors_.size(); ++i) doors_[i].Settle(collidables_.leaves[i], dt_s_);
 }

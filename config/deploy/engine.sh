@@ -7,6 +7,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/../../services/setup.sh"
 export PATH=/usr/bin:$PATH DOCKER_BUILDKIT=1 COMPOSE_DOCKER_CLI_BUILD=1
 # The Debian that the images stand on: trixie with Fast DDS 3.1, bookworm with 2.9.
 SUITE=${GIVEWAY_SUITE:-trixie}
+# The image that ours are made from.
+base_name() { printf '%s' "${GIVEWAY_BASE:-debian:$SUITE-slim}"; }
 ENGINE_LOG=${TMPDIR:-/tmp}/giveway-dockerd.log
 
 # Debian 13 has the client and BuildKit in packages of their own.
@@ -71,7 +73,7 @@ build_image() {
   local target=$1 log
   log=$(mktemp)
   docker build --network host --progress plain -f "$GIVEWAY_ROOT/config/deploy/Dockerfile" \
-    --build-arg BASE="debian:$SUITE-slim" \
+    --build-arg BASE="$(base_name)" \
     --build-arg REVISION="$(git -C "$GIVEWAY_ROOT" rev-parse --short HEAD 2>/dev/null || true)" \
     --target "$target" -t "giveway-$target" "$GIVEWAY_ROOT" >"$log" 2>&1 ||
     die "the image $target could not be built: $(tail -n 20 "$log")"

@@ -87,10 +87,19 @@ have_compose() {
   COMPOSE=(docker-compose)
 }
 
+# Only a Debian can be made here.
+have_base() {
+  local base
+  base=$(base_name)
+  has_image "$base" || timeout 60 docker pull -q "$base" >/dev/null 2>&1 && return
+  [[ $base == "debian:$SUITE-slim" ]] || die "there is no image $base, and it cannot be pulled; GIVEWAY_BASE names it"
+  base_image "$SUITE"
+}
+
 have_images() {
-  local target base=debian:$SUITE-slim
+  local target
   if $build; then
-    has_image "$base" || timeout 60 docker pull -q "$base" >/dev/null 2>&1 || base_image "$SUITE"
+    have_base
     for target in world vehicle observer tools; do
       say "building giveway-$target (the first takes ten minutes on two cores)"
       build_image "$target"
@@ -152,7 +161,8 @@ read_arguments "$@"
 # As compose.yaml says itself; the env file of multicast is empty.
 FILES=(-f "$HERE/compose.yaml")
 [[ $discovery == multicast ]] || FILES=(--env-file "$HERE/$discovery.env" "${FILES[@]}")
-export GIVEWAY_BASE=debian:$SUITE-slim
+GIVEWAY_BASE=$(base_name)
+export GIVEWAY_BASE
 have_engine
 have_compose
 have_images

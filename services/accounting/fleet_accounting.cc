@@ -27,9 +27,13 @@ void FleetAccounting::Fold(const VehicleStatus& status) {
   }
   for (const BeaconAccount& account : status.accounts.Rows()) {
     const std::pair names{status.vehicle, account.writer};
-    if (pairs_.size() == kMostPairs && !pairs_.contains(names)) continue;
+    if (!pairs_.contains(names) && !HasRoomFor(account)) continue;
     Take(account, &pairs_[names]);
   }
+}
+
+bool FleetAccounting::HasRoomFor(const BeaconAccount& account) const {
+  return pairs_.size() < (account.Difference() == 0 ? kMostPairs : 2 * kMostPairs);
 }
 
 // The same life of the writer, and one life of the reader, have the same first number.

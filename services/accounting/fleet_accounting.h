@@ -24,7 +24,8 @@ struct PairAccount {
 
 class FleetAccounting {
  public:
-  static constexpr std::size_t kMostPairs = 5000;  // of further ones nothing is kept
+  // Of further ones only those that differ are kept, at most as many again.
+  static constexpr std::size_t kMostPairs = 5000;
   // Accounts of one pair that may still grow: a writer that starts again is another one to its
   // readers, while the one before is still matched.
   static constexpr std::size_t kMostOpen = 8;
@@ -48,6 +49,7 @@ class FleetAccounting {
     std::vector<Open> open;
   };
 
+  bool HasRoomFor(const BeaconAccount& account) const;
   static void Add(const BeaconAccount& account, PairAccount* to);
   void Take(const BeaconAccount& account, Pair* pair) const;
 

@@ -14,6 +14,9 @@
 namespace giveway::auth {
 namespace {
 
+// White space after the key, as editors leave it, is no part of it.
+constexpr std::size_t kMostReadBytes = 2 * kMostKeyBytes;
+
 constexpr const char* kRemedy =
     "; check the path and its permissions, or make one: openssl rand -hex 32 > FILE";
 
@@ -59,16 +62,18 @@ std::string ReadAdminKey(const std::string& file) {
   if (fstat(input.Get(), &about) != 0 || !S_ISREG(about.st_mode)) {
     throw KeyError("admin key " + file + ": is no regular file" + kRemedy);
   }
-  std::string key(kMostKeyBytes + 1, '\0');
+  std::string key(kMostReadBytes, '\0');
   const ssize_t size = read(input.Get(), key.data(), key.size());
   if (size < 0) Throw(file, "cannot be read", kRemedy);
   key.resize(static_cast<std::size_t>(size));
-  const bool too_long = key.size() > kMostKeyBytes;
+  const bool is_whole = key.size() < kMostReadBytes;
   while (!key.empty() && std::strchr(" \t\r\n", key.back()) != nullptr) key.pop_back();
-  if (too_long || key.size() < kLeastKeyBytes) {
-    throw KeyError("admin key " + file + ": has " + std::to_string(key.size()) +
-                   " bytes, must have " + std::to_string(kLeastKeyBytes) + " to " +
-                   std::to_string(kMostKeyBytes) + "; make one with: openssl rand -hex 32");
+  if (!is_whole || key.size() > kMostKeyBytes || key.size() < kLeastKeyBytes) {
+    const std::string bytes =
+        is_whole ? std::to_string(key.size()) : std::to_string(kMostReadBytes) + " or more";
+    throw KeyError("admin key " + file + ": has " + bytes + " bytes, must have " +
+                   std::to_string(kLeastKeyBytes) + " to " + std::to_string(kMostKeyBytes) +
+                   "; make one with: openssl rand -hex 32");
   }
   return key;
 }

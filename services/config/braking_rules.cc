@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "services/types/math/math.h"
@@ -54,20 +55,24 @@ struct Driver {
   const VehicleOptions* options;
   const Section* section;
   std::string name;
+  bool is_one_of_many = false;  // of a place from which several may come, one after the other
 };
 
 std::vector<Driver> DriversOf(const ReadScenario& read) {
   std::vector<Driver> drivers;
-  const auto add = [&](const VehicleOptions& options, const Section& section, std::string name) {
-    if (IsSound(options)) drivers.push_back({&options, &section, std::move(name)});
+  const auto add = [&](const VehicleOptions& options, const Section& section, std::string name,
+                       bool is_one_of_many) {
+    if (!IsSound(options)) return;
+    drivers.push_back({&options, &section, std::move(name), is_one_of_many});
   };
   const Scenario& scenario = read.scenario;
   for (std::size_t i = 0; i < read.vehicles.size(); ++i) {
     const VehicleOptions& vehicle = scenario.vehicles[i];
-    add(vehicle, read.vehicles[i], fmt::format("vehicle {}", Number(vehicle.id)));
+    add(vehicle, read.vehicles[i], fmt::format("vehicle {}", Number(vehicle.id)), false);
   }
   for (std::size_t i = 0; i < read.spawns.size(); ++i) {
-    add(scenario.spawns[i], read.spawns[i], fmt::format("spawn[{}]", i));
+    const VehicleOptions& place = scenario.spawns[i];
+    add(place, read.spawns[i], fmt::format("spawn[{}]", i), !place.route.loop);
   }
   return drivers;
 }
@@ -102,19 +107,26 @@ void CheckPairs(const std::vector<Driver>& drivers, double delay_s) {
   std::vector<std::size_t> order(drivers.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, std::greater<>{}, [&](std::size_t i) { return needs_m[i]; });
-  for (std::size_t k = 0; k + 1 < order.size(); ++k) {
+  for (std::size_t k = 0; k < order.size(); ++k) {
     const Driver& own = drivers[order[k]];
     // Where two of the faster can stop for each other, so can any two of the rest.
     if (SumOf(*own.options, *own.options, delay_s).NeededCentres() <=
         own.options->emission_radius_m) {
       break;
     }
-    for (std::size_t j = k + 1; j < order.size(); ++j) {
-      const BrakingSum sum = SumOf(*own.options, *drivers[order[j]].options, delay_s);
-      if (sum.ComesOut()) continue;
-      AddPairError(own, drivers[order[j]], sum);
-      break;
-    }
+    const auto refuse = [&](const Driver& peer) {
+      const BrakingSum sum = SumOf(*own.options, *peer.options, delay_s);
+      if (sum.ComesOut()) return false;
+      AddPairError(own, peer, sum);
+      return true;
+    };
+    const auto slower = std::span(order).subspan(k + 1);
+    const bool refused =
+        std::ranges::any_of(slower, [&](std::size_t i) { return refuse(drivers[i]); });
+    if (refused || !own.is_one_of_many) continue;
+    Driver another = own;
+    another.name = "another of " + own.name;
+    refuse(another);
   }
 }
 

@@ -34,19 +34,27 @@ bool HoldsConfig(const fs::path& folder) {
 
 // The file itself if it is one, else the one of that name in `folder`, which holds those of `what`.
 std::string Resolve(const std::string& argument, const char* folder, const char* what) {
-  std::error_code error;
-  if (!argument.empty() && fs::exists(argument, error)) return argument;
+  if (NamesFile(argument)) return argument;
   const fs::path shipped = fs::path(ConfigDir()) / folder;
   const fs::path named = shipped / (argument + kEnding);
-  if (!argument.empty() && fs::exists(named, error)) return named;
+  if (!argument.empty() && NamesFile(named)) return named;
   const auto names = ShippedNames(folder);
-  throw InputError({{argument.empty() ? "\"\"" : argument, 0, "", "",
-                     fmt::format("no such file, and no shipped {} {}{}", what, named.string(),
-                                 DidYouMean(argument, names)),
-                     fmt::format("name a file or one of: {}", fmt::join(names, ", "))}});
+  std::error_code error;
+  const bool is_folder = fs::is_directory(argument, error);
+  throw InputError(
+      {{argument.empty() ? "\"\"" : argument, 0, "", "",
+        fmt::format("{}, and no shipped {} {}{}", is_folder ? "is a folder" : "no such file", what,
+                    named.string(), DidYouMean(argument, names)),
+        fmt::format("name a file or one of: {}", fmt::join(names, ", "))}});
 }
 
 }  // namespace
+
+bool NamesFile(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::exists(status) && !fs::is_directory(status);
+}
 
 std::string ConfigDir() {
   const char* given = std::getenv("GIVEWAY_CONFIG_DIR");
@@ -83,12 +91,11 @@ std::string ResolveScenario(const std::string& argument) {
 }
 
 std::string ResolveQosFile(const std::string& argument) {
-  std::error_code error;
-  if (!argument.empty() && fs::exists(argument, error)) return argument;
+  if (NamesFile(argument)) return argument;
   if (argument.find('/') != std::string::npos || argument.ends_with(".xml")) return argument;
   const fs::path shipped =
       fs::path(ConfigDir()) / "qos" / ((argument.empty() ? "default" : argument) + ".xml");
-  return fs::exists(shipped, error) ? shipped.string() : argument;
+  return NamesFile(shipped) ? shipped.string() : argument;
 }
 
 std::string ResolveFaults(const std::string& argument) {

@@ -43,7 +43,7 @@ class FlagValues {
   // One of `names`; nothing if not set, or none of them.
   std::optional<std::string> OneOf(const std::string& flag,
                                    std::initializer_list<std::string_view> names);
-  // A switch: its twin is 1 or true, 0 or false.
+  // A switch: it or its twin is 1 or true, 0 or false.
   bool Switch(const std::string& flag);
 
   void AddError(const std::string& flag, std::string message, std::string remedy);

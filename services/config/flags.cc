@@ -22,7 +22,7 @@ Every flag has a twin in the environment: --log-level is also GIVEWAY_LOG_LEVEL.
 empty variable counts as unset. GIVEWAY_CONFIG_DIR names the folder with qos/ and scenarios/.
 
 Exit code: 0 the run is over (of the world: passed), or it was stopped by SIGTERM or SIGINT; 1 the
-run failed (world), or the network interface was replaced by another (vehicle); 2 a flag, a file or
+run failed (world), or the network interface was replaced by another; 2 a flag, a file or
 the network was not usable, or the world refused the vehicle: stderr says which; 70 the control loop
 hung, and the watchdog ended it; 130 or 143 it had not left a second after SIGINT or SIGTERM, or a
 second signal came.
@@ -63,8 +63,8 @@ void AddFlags(Service service, CommandLine* line) {
     line->Add("--threads", "1..256", "threads that share the work of a tick (default 1)");
     line->Add("--checkpoint", "FILE", "resume from there after a crash, and keep it up to date");
     line->Add("--faults", "FILE",
-              "carries out the world's faults of this list: ultrasonics, motors and "
-              "encoders; fleetctl faults expand writes one");
+              "carries out the world's faults of this list: ultrasonics, motors, encoders and "
+              "pose fixes; fleetctl faults expand writes one");
   }
   line->Add("--leave-out", "shared_memory",
             "does without this transport of the set; a service whose shared memory was deleted,\n"

@@ -48,8 +48,13 @@ void RefuseWithoutEffect(const Section& section, std::initializer_list<const cha
 
 bool KeepsSchedule(SonarTier tier) { return tier >= SonarTier::kP3dx; }
 
+// Ticks that a round of the array takes, a part of one as a whole.
+std::int64_t RoundTicks(const SonarModel& sonar, Nanoseconds tick_period) {
+  return (kArraySlots * sonar.slot + tick_period - Nanoseconds{1}) / tick_period;
+}
+
 void CheckRefresh(const Section& section, const SonarModel& sonar, Nanoseconds tick_period) {
-  const auto ticks = kArraySlots * sonar.slot / tick_period;
+  const std::int64_t ticks = RoundTicks(sonar, tick_period);
   if (!KeepsSchedule(sonar.tier) || ticks <= kMaxRefreshTicks) return;
   section.AddError("slot_ms",
                    fmt::format("a transducer that fires every {:g} ms is refreshed every {} ticks "
@@ -153,9 +158,7 @@ SonarModel ReadSonar(const std::optional<Section>& section, Nanoseconds tick_per
 
 Nanoseconds SonarRefresh(const SonarModel& sonar, Nanoseconds tick_period) {
   if (!KeepsSchedule(sonar.tier)) return Nanoseconds{0};
-  const Nanoseconds round = kArraySlots * sonar.slot;
-  const auto ticks = (round + tick_period - Nanoseconds{1}) / tick_period;
-  return ticks * tick_period + sonar.slot;
+  return RoundTicks(sonar, tick_period) * tick_period + sonar.slot;
 }
 
 Wall ReadWall(const Section& section) {

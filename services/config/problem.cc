@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/runtime/utf8.h"
+
 namespace giveway {
 namespace {
 
@@ -13,12 +15,8 @@ std::string FormatOne(const Problem& problem) {
   if (problem.line > 0) line += fmt::format(":{}", problem.line);
   if (!problem.field.empty()) line += ": " + problem.field;
   if (!problem.value.empty()) line += (problem.field.empty() ? ": " : " = ") + problem.value;
-  line = fmt::format("{}: {}; {}", line, problem.message, problem.remedy);
   // What a file holds must not command the terminal it is shown on.
-  std::replace_if(
-      line.begin(), line.end(),
-      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
-  return line;
+  return Printable(fmt::format("{}: {}; {}", line, problem.message, problem.remedy));
 }
 
 }  // namespace

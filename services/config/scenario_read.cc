@@ -11,7 +11,9 @@
 #include "services/config/impair.h"
 #include "services/config/place_read.h"
 #include "services/config/plan_read.h"
+#include "services/config/pose_read.h"
 #include "services/config/vehicle_read.h"
+#include "services/types/fleet_limits.h"
 #include "services/types/signal_plan.h"
 
 namespace giveway {
@@ -148,9 +150,15 @@ void ReadStartWith(const Section& root, Scenario* scenario) {
                   "write spawn { ... }, or remove it");
     return;
   }
-  const auto all = static_cast<double>(named + scenario->spawns.size());
+  if (named > kMaxOpenFleet) {
+    root.AddError("vehicle",
+                  fmt::format("is one of {}; an open fleet has at most {} at any one time", named,
+                              kMaxOpenFleet),
+                  "leave some out, or every spawn", kMaxOpenFleet);
+  }
+  const std::size_t all = std::min<std::size_t>(named + scenario->spawns.size(), kMaxOpenFleet);
   scenario->start_with = root.UintOr(static_cast<std::uint32_t>(std::max<std::size_t>(named, 1)),
-                                     "start_with", {1, all, "vehicles"});
+                                     "start_with", {1, static_cast<double>(all), "vehicles"});
 }
 
 // The map that all vehicles share.
@@ -165,6 +173,9 @@ void ReadFleet(const Section& root, const ScenarioOverrides& overrides, ReadScen
   Scenario& scenario = read->scenario;
   VehicleOptions common = ReadCommon(root);
   common.one_lanes = scenario.one_lanes;
+  if (!std::isnan(scenario.remove_after_s)) {  // else refused
+    common.silent_body_stays = SilenceIn(common.tick_period) + FromSeconds(scenario.remove_after_s);
+  }
   scenario.tick_period = common.tick_period;
   scenario.sonar = ReadSonar(root.Child("sonar"), common.tick_period);
   common.sonar_refresh = SonarRefresh(scenario.sonar, common.tick_period);
@@ -180,12 +191,15 @@ void ReadFleet(const Section& root, const ScenarioOverrides& overrides, ReadScen
                               read->vehicles.size() + read->spawns.size(), kMaxVehicles),
                   "leave some out");
   }
+  PoseLimits limits(root.Child("profile"));
   for (const Section& section : read->vehicles) {
     scenario.vehicles.push_back(ReadVehicle(section, common, overrides.behaviour));
+    limits.Settle(section.Child("profile"), &scenario.vehicles.back().profile);
   }
   SortById(&scenario.vehicles, &read->vehicles, "vehicle");
   for (const Section& section : read->spawns) {
     scenario.spawns.push_back(ReadSpawn(section, common, overrides.behaviour));
+    limits.Settle(section.Child("profile"), &scenario.spawns.back().profile);
   }
   ReadStartWith(root, &scenario);
 }

@@ -134,16 +134,16 @@ class Rules {
     std::ranges::stable_sort(cuts_, {}, &Cut::from_s);
   }
 
-  std::vector<ImpairmentRule> Made(double since_s) const {
+  std::vector<ImpairmentRule> Made() const {
     const std::vector<double> moments = Moments();
     Sweep faults(faults_);
     Sweep cuts(cuts_);
     std::vector<ImpairmentRule> rules;
     for (std::size_t i = 1; i < moments.size(); ++i) {
-      const Span span{moments[i - 1], moments[i], since_s};
+      const Span span{moments[i - 1], moments[i]};
       const auto& active = faults.Through(span.from_s, span.to_s);
       const auto& cut = cuts.Through(span.from_s, span.to_s);
-      if (span.to_s > since_s) AddRules(span, active, cut, &rules);
+      AddRules(span, active, cut, &rules);
     }
     return rules;
   }
@@ -154,11 +154,10 @@ class Rules {
     double from_s;
     double to_s;
   };
-  // Between two neighbouring moments; the vehicle counts from `since_s`.
+  // Between two neighbouring moments.
   struct Span {
     double from_s;
     double to_s;
-    double since_s;
   };
 
   std::vector<double> Moments() const {
@@ -170,19 +169,17 @@ class Rules {
 
   static void Black(const Cut& cut, const Span& span, ImpairmentRule* rule) {
     for (const Blackout& time : cut.times) {
-      const double begin_s = std::max({time.from_s, span.from_s, span.since_s});
-      const double end_s = std::min(time.to_s, span.to_s);
-      if (begin_s < end_s) {
-        rule->blackouts.push_back({begin_s - span.since_s, end_s - span.since_s});
-      }
+      const double from_s = std::max(time.from_s, span.from_s);
+      const double to_s = std::min(time.to_s, span.to_s);
+      if (from_s < to_s) rule->blackouts.push_back({from_s, to_s});
     }
   }
 
   static void AddRules(const Span& span, const std::vector<const Disturbance*>& faults,
                        const std::vector<const Cut*>& cuts, std::vector<ImpairmentRule>* rules) {
     ImpairmentRule all{.from = ImpairedSender::kVehicles};
-    all.from_s = std::max(span.from_s, span.since_s) - span.since_s;
-    all.to_s = span.to_s - span.since_s;
+    all.from_s = span.from_s;
+    all.to_s = span.to_s;
     for (const Disturbance* one : faults) Apply(*one->fault, &all);
     bool any = !faults.empty();
     for (const Cut* cut : cuts) {
@@ -209,13 +206,27 @@ class Rules {
 }  // namespace
 
 std::map<VehicleId, Impairment> ImpairmentOf(const Schedule& schedule,
-                                             std::span<const VehicleId> vehicles, double since_s) {
+                                             std::span<const VehicleId> vehicles) {
   std::map<VehicleId, Impairment> impairments;
   for (const VehicleId hearer : vehicles) {
-    std::vector<ImpairmentRule> rules = Rules(schedule, hearer).Made(since_s);
+    std::vector<ImpairmentRule> rules = Rules(schedule, hearer).Made();
     if (!rules.empty()) impairments[hearer].rules = std::move(rules);
   }
   return impairments;
+}
+
+std::map<VehicleId, Impairment> ImpairmentWith(const Schedule& schedule,
+                                               std::span<const VehicleId> vehicles,
+                                               const Impairment& always) {
+  std::map<VehicleId, Impairment> heard;
+  const auto by_faults = ImpairmentOf(schedule, vehicles);
+  if (by_faults.empty()) return heard;
+  for (const VehicleId vehicle : vehicles) heard[vehicle] = always;
+  for (const auto& [vehicle, impairment] : by_faults) {
+    std::vector<ImpairmentRule>& rules = heard[vehicle].rules;
+    rules.insert(rules.end(), impairment.rules.begin(), impairment.rules.end());
+  }
+  return heard;
 }
 
 }  // namespace giveway::faults

@@ -15,10 +15,12 @@ inline constexpr double kMostFlaps = 1000;
 
 // For each of `vehicles` whose reception the list ever impairs: the rules of its impairment. Only
 // samples of other vehicles are impaired: what a vehicle senses of the world comes by no radio.
-// `since_s`: the moment, after the run's start signal, from which the vehicle counts, for one that
-// was started later; what is over by then is left out.
 std::map<VehicleId, Impairment> ImpairmentOf(const Schedule& schedule,
-                                             std::span<const VehicleId> vehicles,
-                                             double since_s = 0);
+                                             std::span<const VehicleId> vehicles);
+// The same behind `always`, the rules of a scenario, whose place an impairment takes, so that the
+// faults hold while they last: for each of `vehicles`, or for none where the list impairs none.
+std::map<VehicleId, Impairment> ImpairmentWith(const Schedule& schedule,
+                                               std::span<const VehicleId> vehicles,
+                                               const Impairment& always);
 
 }  // namespace giveway::faults

@@ -2,6 +2,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <memory>
 #include <string>
 
@@ -43,6 +44,10 @@ campaign see their --help.
 int main(int argc, char** argv) {
   // Reaching the file size limit is an error of that write, not the end of the program.
   std::signal(SIGXFSZ, SIG_IGN);
+  // So is a reader that ends before it has read all.
+  std::signal(SIGPIPE, SIG_IGN);
+  // A parent may have ignored it, which survives exec: then no child could be waited for.
+  std::signal(SIGCHLD, SIG_DFL);
   CLI::App fleetctl("Runs and judges fleets of vehicles that talk over DDS.", "fleetctl");
   fleetctl.require_subcommand(1);
   fleetctl.formatter(std::make_shared<giveway::HelpFormat>());  // of every verb, too
@@ -75,7 +80,8 @@ int main(int argc, char** argv) {
   try {
     fleetctl.parse(argc, argv);
   } catch (const CLI::Success& help) {
-    return fleetctl.exit(help);
+    const int code = fleetctl.exit(help);
+    return std::cout.flush() ? code : giveway::fleetctl::kCouldNotRun;
   } catch (const CLI::ParseError& error) {
     std::fprintf(stderr, "fleetctl: %s\nTry: %s --help\n",
                  giveway::fleetctl::ExplainUsageError(fleetctl, error).c_str(),

@@ -31,7 +31,8 @@ std::string TooFewPeers(const VehicleHealth& vehicle) {
 std::string NotThere(const VehicleHealth& vehicle) {
   switch (vehicle.loop.stage) {
     case HealthStage::kStarting:
-      return "starting: it has no participant yet";
+      if (vehicle.waits_for.View().empty()) return "starting: it has no participant yet";
+      return fmt::format("starting: {}", vehicle.waits_for.View());
     case HealthStage::kJoining:
       if (vehicle.waits_for.View().empty()) {
         return "not joined: no answer from a world yet; is giveway-world running in this domain?";

@@ -26,6 +26,12 @@ inline constexpr Nanoseconds kStartLimit{10'000'000'000};
 
 enum class HealthStage : std::uint8_t { kStarting, kJoining, kUnderWay, kLeaving };
 
+// Whether the loop turns then, so that its silence is a hang. Making a participant, and leaving,
+// may take longer than a turn, and have limits of their own.
+constexpr bool IsWatched(HealthStage stage) {
+  return stage == HealthStage::kJoining || stage == HealthStage::kUnderWay;
+}
+
 // A sentence of fixed capacity, so that its holder is a plain value. What does not fit is cut off.
 class ShortText {
  public:
@@ -46,7 +52,9 @@ struct LoopHealth {
 
 struct VehicleHealth {
   LoopHealth loop;
-  ShortText waits_for;   // while joining: what the world said last; empty: it said nothing
+  // While starting: what keeps it from making a participant. While joining: what the world said
+  // last. Empty: nothing.
+  ShortText waits_for;
   VehicleStatus status;  // as last reported to the fleet
   RunState run_state = RunState::kWaiting;
   std::uint32_t fleet_size = 0;  // vehicles the run waits for, before it starts

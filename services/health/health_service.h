@@ -31,14 +31,13 @@ class HealthService {
 
   // The loop's own; not visible to others before Publish.
   Health& Now() { return now_; }
+  const Health& Now() const { return now_; }
   // Publishes it, as of a loop that turns. Never waits.
   void Publish() {
     now_.loop.turned = SteadyNow();
     ++now_.loop.turns;
     board_.Publish(now_);
-    const HealthStage stage = now_.loop.stage;
-    const bool watched = stage == HealthStage::kJoining || stage == HealthStage::kUnderWay;
-    if (watchdog_) watched ? watchdog_->Feed() : watchdog_->Rest();
+    if (watchdog_) IsWatched(now_.loop.stage) ? watchdog_->Feed() : watchdog_->Rest();
   }
 
  private:

@@ -118,7 +118,7 @@ std::unique_ptr<Listener> MakeAnyListener(Participant& participant, const ProbeT
 
 struct DiscoveryProbe::Impl {
   Impl(const LinkOptions& options, const std::vector<ProbeTopic>& topics, VehicleId hearer)
-      : participant(options, "giveway-probe", discovered) {
+      : participant(options, "giveway-probe", discovered, Participant::Endpoints::kJudged) {
     if (Impairer* const impairer = participant.ImpairerOrNull()) impairer->NameHearer(hearer);
     for (const ProbeTopic& topic : topics) listeners.push_back(MakeAnyListener(participant, topic));
   }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "services/link/convert/convert.h"
+#include "services/link/fastdds/interface_watch.h"
 #include "services/link/inbox/beacon_inbox.h"
 #include "services/link/inbox/participant_of.h"
 #include "services/link/inbox/tick_period.h"
@@ -96,6 +97,7 @@ struct ObserverLink::Impl {
   const LinkOptions options;
   const Ranges ranges;
   const Commands commands;
+  const InterfaceWatch interfaces{options.interface};  // before the participant binds to them
   ParticipantNames names;  // the library calls these two until the participant is gone
   KeyQuota beacon_ids{"beacon", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, kMostIdsOfWriter};
   FirstComerFilter status_owners{"status"};
@@ -138,9 +140,12 @@ void ObserverLink::DropGiven(std::vector<WorldEvent>* events) {
   if (!events->empty()) last_event_ = {events->back().epoch, events->back().seq};
 }
 
+std::string ObserverLink::InterfaceChange() const { return impl_->interfaces.Change(); }
+
 Observed ObserverLink::Take() {
   impl_->names.Writers().Update();
   Observed observed;
+  observed.world = impl_->names.World();
   impl_->AppendOwn(impl_->status_reader, impl_->status_owners, observed.statuses, observed);
   impl_->beacons.Drain(SteadyTime{0}, observed.beacons);
   impl_->Append(impl_->truth_reader, observed.truths, observed);

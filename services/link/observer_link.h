@@ -26,6 +26,9 @@ struct Observed {
   std::optional<RunFigures> figures;
   std::vector<RangeScan> ranges;       // only where they are asked for
   std::vector<MotorCommand> commands;  // likewise
+  // The participant whose writers are those of a world, by discovery; 0: none is there. A world
+  // without bodies publishes nothing.
+  std::uint64_t world = 0;
   // Statuses whose id is not the one of their writer's partition, and samples of a participant that
   // may not say that, or of ids too many; and the first few of the latter.
   std::uint32_t refused = 0;
@@ -52,6 +55,9 @@ class ObserverLink {
   // for newcomers comes again then, but for its events. Throws LinkError where it cannot, and must
   // not be used after that.
   Observed Take();
+  // What changed of the network interfaces since this link was made, if it can no longer receive
+  // for that reason; else empty. Throws LinkError.
+  std::string InterfaceChange() const;
 
  private:
   struct Impl;

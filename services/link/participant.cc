@@ -11,6 +11,7 @@
 #include "services/link/fastdds/profiles.h"
 #include "services/link/fastdds/server_addresses.h"
 #include "services/link/impairment/impaired_transport.h"
+#include "services/link/link_clock.h"
 
 namespace giveway::link {
 namespace {
@@ -72,7 +73,8 @@ FilteredTransportOptions FilterOf(const LinkOptions& options,
                      .of_all_bodies = options.hears_all_bodies,
                      .seed = 0},
           .joined_interfaces_only = options.interface != "any",
-          .says_farewell = SaysFarewell(options, qos)};
+          .says_farewell = SaysFarewell(options, qos),
+          .lets_packets_gather = options.lets_packets_gather};
 }
 
 bool IsSharedMemory(const std::shared_ptr<transport::TransportDescriptorInterface>& named) {
@@ -187,6 +189,15 @@ void RequestNoTimes(dds::DataReaderQos& qos) {
 // DDS 2.9 and 3.1 spell <times> differently. Heartbeats go only while something is unacknowledged.
 const Duration kHeartbeatPeriod(0, 100'000'000);
 
+// What a writer that is about to be deleted holds, under its lock. Fast DDS releases its samples
+// without one, while the writer still has its heartbeats: one that comes meanwhile, which is where
+// a reader has not acknowledged all, looks for holes between released samples, and never ends
+// (2.9.1 and 3.1).
+void ReleaseSamples(dds::DataWriter& writer) {
+  std::size_t released = 0;
+  writer.clear_history(&released);
+}
+
 }  // namespace
 
 dds::DomainParticipantQos ParticipantQos(const LinkOptions& options, const std::string& name) {
@@ -224,7 +235,7 @@ void Participant::DeleteAll::operator()(dds::DomainParticipant* participant) con
 }
 
 Participant::Participant(const LinkOptions& options, const std::string& name,
-                         DiscoveryListener& discovery) {
+                         DiscoveryListener& discovery, Endpoints of_others) {
   CheckOptions(options);
   LoadProfiles(options.qos);
   DiscoveryListener* listener = &discovery;
@@ -234,10 +245,12 @@ Participant::Participant(const LinkOptions& options, const std::string& name,
     listener = naming_.get();
   }
   listener_ = listener;
+  if (of_others == Endpoints::kJudged) listener->KeepEndpoints();
   const dds::DomainParticipantQos qos = MakeQos(options, name, true, impairer_);
   servers_ = ServersOf(qos, options);
   secured_ = IsSecured(qos);
   requests_no_times_ = options.requests_no_times;
+  requests_status_once_ = options.requests_status_once;
   if (std::ranges::any_of(qos.transport().user_transports, IsSharedMemory)) memory_.emplace();
   // No status reaches the participant's listener, only discovery: in 2.9.1 an offered deadline
   // missed by a writer without a listener of its own crashes there.
@@ -249,6 +262,10 @@ Participant::Participant(const LinkOptions& options, const std::string& name,
                  "; are there more than mutation_tries participants on this host?");
   }
   if (impairer_ != nullptr) impairer_->NameOwn(BytesOf(Prefix()));
+}
+
+Participant::~Participant() {
+  for (const auto& [profile, writer] : writers_) ReleaseSamples(*writer);
 }
 
 std::string Participant::WhyNoPeerIsFound() const {
@@ -264,6 +281,8 @@ std::string Participant::PrefixText() const {
   std::copy_n(Prefix().value, 12, guid.begin());
   return ParticipantText(guid);
 }
+
+bool Participant::SharedMemoryIsGone() { return memory_ && memory_->IsGone(LinkNow()); }
 
 std::vector<FoundEndpoint> Participant::TakeFound() {
   std::vector<FoundEndpoint> found = listener_->TakeEndpoints();
@@ -334,6 +353,7 @@ void Participant::Delete(dds::DataWriter& writer) {
   std::erase_if(writers_, [&](const auto& made) { return made.second == &writer; });
   // The library shows a writer its publisher only as const; it was made for this writer alone.
   auto* publisher = const_cast<dds::Publisher*>(writer.get_publisher());
+  ReleaseSamples(writer);
   publisher->delete_datawriter(&writer);
   participant_->delete_publisher(publisher);
 }
@@ -365,6 +385,9 @@ dds::DataReader& Participant::MakeReader(dds::Topic& topic, const std::string& p
   dds::DataReaderQos qos = ReaderQos(*subscriber, profile, depth);
   qos.deadline().period = DeadlineOf(profile, qos.deadline().period);
   if (requests_no_times_) RequestNoTimes(qos);
+  if (requests_status_once_ && profile == TopicOf<wire::Status>::kReader) {
+    qos.reliability().kind = dds::BEST_EFFORT_RELIABILITY_QOS;
+  }
   auto* reader = subscriber->create_datareader(&read, qos, listener, mask);
   if (reader == nullptr) ThrowNotMade("reader of profile \"" + profile + "\"");
   readers_.emplace_back(profile, reader);

@@ -29,8 +29,16 @@ class Participant {
   // Takes the depth of a history from the profile.
   static constexpr std::int32_t kProfileDepth = 0;
 
+  // The endpoints of others: kept for TakeUnfit or TakeFound, which is called again and again, or
+  // not looked at.
+  enum class Endpoints : std::uint8_t { kIgnored, kJudged };
+
   // `discovery` is called from the first moment and must outlive this. Throws LinkError.
-  Participant(const LinkOptions& options, const std::string& name, DiscoveryListener& discovery);
+  Participant(const LinkOptions& options, const std::string& name, DiscoveryListener& discovery,
+              Endpoints of_others = Endpoints::kIgnored);
+  ~Participant();
+  Participant(const Participant&) = delete;
+  Participant& operator=(const Participant&) = delete;
 
   // Each endpoint has a Publisher or Subscriber of its own, because that is what carries the
   // partition. Of a writer it may be empty: the default one, which no wildcard matches. Throws
@@ -74,8 +82,9 @@ class Participant {
   // One sentence while this participant is a client whose servers have not answered; else empty.
   std::string WhyNoPeerIsFound() const;
   // Whether its shared memory was deleted: participants that start later do not receive it, unless
-  // they have none themselves. Looks at most once a second; false where it has none.
-  bool SharedMemoryIsGone() { return memory_ && memory_->IsGone(); }
+  // they have none themselves. Or was replaced before it started: see SharedMemoryWatch. Looks at
+  // most once a second; false where it has none.
+  bool SharedMemoryIsGone();
   // Of endpoints found about a second ago, those that do not match one of ours, and why.
   std::vector<std::string> TakeUnfit(SteadyTime now);
   // The endpoints of others found since the last call. They are judged by TakeUnfit all the same.
@@ -112,6 +121,7 @@ class Participant {
   std::string servers_;  // of a client, as they were named; else empty
   bool secured_ = false;
   bool requests_no_times_ = false;
+  bool requests_status_once_ = false;
   std::optional<SharedMemoryWatch> memory_;  // none where it uses no shared memory
   std::unique_ptr<dds::DomainParticipant, DeleteAll> participant_;
   std::vector<std::pair<std::string, dds::DataWriter*>> writers_;  // by profile, as they were made

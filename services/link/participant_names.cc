@@ -23,14 +23,23 @@ void ParticipantNames::OnWriter(Change change, const rtps::GUID_t& writer,
   writers_.OnWriter(change, writer, partitions);
 }
 
-bool ParticipantNames::Owns(VehicleId vehicle, const rtps::GUID_t& endpoint) const {
-  const std::scoped_lock lock(mutex_);
+std::uint64_t ParticipantNames::FirstOf(VehicleId vehicle) const {
   const Speaker* first = nullptr;
   for (const auto& [writer, speaker] : speakers_) {
     if (speaker.vehicle != vehicle) continue;
     if (first == nullptr || speaker.found < first->found) first = &speaker;
   }
-  return first != nullptr && first->participant == ParticipantOf(endpoint);
+  return first == nullptr ? 0 : first->participant;
+}
+
+bool ParticipantNames::Owns(VehicleId vehicle, const rtps::GUID_t& endpoint) const {
+  const std::scoped_lock lock(mutex_);
+  return FirstOf(vehicle) == ParticipantOf(endpoint);
+}
+
+std::uint64_t ParticipantNames::World() const {
+  const std::scoped_lock lock(mutex_);
+  return FirstOf(kNoVehicle);
 }
 
 bool ParticipantNames::IsWorld(std::uint64_t participant) const {

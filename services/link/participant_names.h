@@ -25,6 +25,8 @@ class ParticipantNames final : public DiscoveryListener {
   bool Owns(VehicleId vehicle, const rtps::GUID_t& endpoint) const;
   // Whether the participant is there and speaks as a world.
   bool IsWorld(std::uint64_t participant) const;
+  // The participant that has spoken longest as a world, of those that are there; 0: none is.
+  std::uint64_t World() const;
 
  private:
   static constexpr std::size_t kMostWriters = 16'384;
@@ -34,6 +36,9 @@ class ParticipantNames final : public DiscoveryListener {
     std::uint64_t participant = 0;
     std::uint64_t found = 0;  // 1, 2, 3 ...
   };
+
+  // The participant that has spoken longest for the vehicle; 0: none. Under the lock.
+  std::uint64_t FirstOf(VehicleId vehicle) const;
 
   WriterNames writers_;
   mutable std::mutex mutex_;

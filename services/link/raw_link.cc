@@ -6,6 +6,7 @@
 
 #include "services/link/fastdds/raw_type.h"
 #include "services/link/fastdds/writer_names.h"
+#include "services/link/inbox/given_samples.h"
 #include "services/link/participant.h"
 
 namespace giveway::link {
@@ -37,7 +38,7 @@ std::uint64_t SinceEpoch_ns(const Time& time) {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(time.to_ns(), 0));
 }
 
-using Drain = std::function<void(std::vector<RawSample>&)>;
+using Drain = std::function<void(GivenSamples&, std::vector<RawSample>&)>;
 
 struct DrainedReader {
   Drain drain;
@@ -50,13 +51,23 @@ std::array<std::uint8_t, 16> InstanceOf(const dds::InstanceHandle_t& handle) {
   return bytes;
 }
 
+bool KeepsForLateReaders(const dds::DataReader& reader) {
+  return reader.get_qos().durability().kind != dds::VOLATILE_DURABILITY_QOS;
+}
+
 template <typename Wire>
 DrainedReader OpenAs(Participant& participant, std::size_t topic, const std::string& partition,
                      std::int32_t depth) {
   Reader<Raw<Wire>> reader = participant.MakeReader<Raw<Wire>>(partition, depth);
-  const auto drain = [reader, topic](std::vector<RawSample>& samples) mutable {
+  const bool is_durable = KeepsForLateReaders(reader.Entity());
+  const auto drain = [reader, topic, is_durable](GivenSamples& given,
+                                                 std::vector<RawSample>& samples) mutable {
     reader.TakeEach([&](const Raw<Wire>& raw, const dds::SampleInfo& info) {
       const auto sequence = info.sample_identity.sequence_number().to64long();
+      if (is_durable && given.IsGivenAgain(topic, Identity(info.sample_identity.writer_guid()),
+                                           static_cast<std::uint64_t>(sequence))) {
+        return;
+      }
       samples.push_back(
           {topic, SinceEpoch_ns(info.source_timestamp), SinceEpoch_ns(info.reception_timestamp),
            static_cast<std::uint32_t>(sequence), raw.bytes, InstanceOf(info.instance_handle)});
@@ -168,7 +179,7 @@ struct RawLink::Impl {
 };
 
 RawLink::RawLink(const LinkOptions& options, const std::vector<std::size_t>& topics)
-    : impl_(std::make_unique<Impl>(options)) {
+    : given_(std::make_unique<GivenSamples>()), impl_(std::make_unique<Impl>(options)) {
   for (const std::size_t topic : topics) Open(topic);
 }
 RawLink::~RawLink() = default;
@@ -179,6 +190,7 @@ void RawLink::RenewIfDeaf() {
   const LinkOptions options = WithoutSharedMemory(impl_->options);
   std::vector<std::size_t> topics;
   for (const OpenTopic& open : impl_->open) topics.push_back(open.topic);
+  given_->Renew();
   impl_.reset();
   impl_ = std::make_unique<Impl>(options);
   for (const std::size_t topic : topics) Open(topic);
@@ -186,7 +198,7 @@ void RawLink::RenewIfDeaf() {
 
 void RawLink::Collect() {
   impl_->names.Update();
-  for (const OpenTopic& open : impl_->open) open.reader.drain(samples_);
+  for (const OpenTopic& open : impl_->open) open.reader.drain(*given_, samples_);
   RenewIfDeaf();
 }
 
@@ -202,8 +214,7 @@ const RawLink::OpenTopic* RawLink::Find(std::size_t topic) const {
 
 bool RawLink::IsDurable(std::size_t topic) const {
   const OpenTopic* open = Find(topic);
-  return open != nullptr &&
-         open->reader.reader->get_qos().durability().kind != dds::VOLATILE_DURABILITY_QOS;
+  return open != nullptr && KeepsForLateReaders(*open->reader.reader);
 }
 
 std::string RawLink::QosText(std::size_t topic) const {

@@ -13,6 +13,8 @@
 
 namespace giveway::link {
 
+class GivenSamples;
+
 struct RawSample {
   std::size_t topic = 0;                    // its place in RawTopics()
   std::uint64_t source_ns = 0;              // by the writer's clock, since 1970
@@ -43,7 +45,8 @@ class RawLink {
   // is closed before all are: the library removes readers of a running participant unsafely.
   void Open(std::size_t topic);
   // Calls take(sample) for all that came since the last call; of one instance in order. Where its
-  // shared memory was deleted it replaces its participant, as ObserverLink::Take.
+  // shared memory was deleted it replaces its participant, as ObserverLink::Take; what writers keep
+  // for the new one and was given before, is not given again.
   template <typename TakeSample>
   void Take(TakeSample&& take) {
     Collect();
@@ -62,6 +65,7 @@ class RawLink {
   void RenewIfDeaf();
   const OpenTopic* Find(std::size_t topic) const;
 
+  std::unique_ptr<GivenSamples> given_;  // outlives a participant
   std::unique_ptr<Impl> impl_;
   std::vector<RawSample> samples_;
 };

@@ -53,8 +53,11 @@ std::vector<ResolvedValue> EndpointValues(const Qos& qos, const Around& around) 
 }  // namespace
 
 std::int64_t NanosecondsOf(const Duration& duration) {
-  // The library's infinite differs in its nanoseconds from release to release.
-  if (duration.seconds == std::numeric_limits<std::int32_t>::max()) return kInfiniteDuration;
+  // The library's infinite differs in its nanoseconds from release to release; without any it is a
+  // time that a profile says, and less than infinite.
+  if (duration.seconds == std::numeric_limits<std::int32_t>::max() && duration.nanosec != 0) {
+    return kInfiniteDuration;
+  }
   return duration.seconds * std::int64_t{1'000'000'000} + duration.nanosec;
 }
 

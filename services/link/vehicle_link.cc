@@ -185,7 +185,7 @@ struct VehicleLink::Impl {
   Impl(const LinkOptions& link_options, const ServiceOptions& service_options)
       : options(link_options),
         service(service_options),
-        participant(options, "giveway-vehicle", names),
+        participant(options, "giveway-vehicle", names, Participant::Endpoints::kJudged),
         join_writer(participant.MakeWriter<wire::Join>("fleet")),
         roster(participant.MakeReader<wire::Roster>(kWorldPartition, &filters.roster), world),
         peers(names, participant.Prefix(), options.area) {

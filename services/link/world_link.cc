@@ -8,6 +8,7 @@
 
 #include "services/link/convert/convert.h"
 #include "services/link/fastdds/anchored_reader.h"
+#include "services/link/fastdds/interface_watch.h"
 #include "services/link/fastdds/reader_events.h"
 #include "services/link/fastdds/writer_names.h"
 #include "services/link/inbox/join_inbox.h"
@@ -34,7 +35,8 @@ constexpr std::size_t kMostRefusals = 8;  // kept for the log; the counters have
 
 struct WorldLink::Impl {
   Impl(const LinkOptions& options, const ServiceOptions& service)
-      : participant(options, "giveway-world", names),
+      : interfaces(options.interface),
+        participant(options, "giveway-world", names, Participant::Endpoints::kJudged),
         joins(participant.MakeReader<wire::Join>("fleet", &join_quota), service.tick_period),
         command_reader(participant.MakeReader<wire::MotorCommand>(
             "v*", Participant::kProfileDepth, &events,
@@ -70,6 +72,7 @@ struct WorldLink::Impl {
   }
   void CountWrite(bool written) { counters.write_failures += written ? 0 : 1; }
 
+  InterfaceWatch interfaces;  // before the participant binds to them
   WriterNames names;  // the library calls these two until the participant is gone, so they are
   ReaderEvents events{&RemoveDeparted<wire::MotorCommand>};  // declared before it
   KeyQuota join_quota{"join", KeyQuota::Key::kSession, KeyQuota::Of::kParticipant, kMostSessions};
@@ -146,6 +149,7 @@ WorldLink::~WorldLink() = default;
 std::string WorldLink::ParticipantText() const { return impl_->participant.PrefixText(); }
 
 std::string WorldLink::WhyNoPeerIsFound() const { return impl_->participant.WhyNoPeerIsFound(); }
+std::string WorldLink::InterfaceChange() const { return impl_->interfaces.Change(); }
 bool WorldLink::SharedMemoryIsGone() { return impl_->participant.SharedMemoryIsGone(); }
 
 template <typename Scan>

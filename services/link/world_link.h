@@ -47,6 +47,9 @@ class WorldLink final : public AdminLink {
   std::string ParticipantText() const;
   // One sentence while discovery servers are to be used and none has answered; else empty.
   std::string WhyNoPeerIsFound() const;
+  // What changed of the network interfaces since this link was made, if it can no longer receive
+  // for that reason; else empty. Throws LinkError.
+  std::string InterfaceChange() const;
   // Whether its shared memory was deleted: participants that start later do not receive this world.
   bool SharedMemoryIsGone();
 

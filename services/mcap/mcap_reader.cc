@@ -18,38 +18,15 @@ constexpr std::uint64_t kMostKept = 32ULL << 20U;
 // Bytes of LZ4 give at most this many times as many.
 constexpr std::uint64_t kMostExpansion = 256;
 
-// True if all of `size` came.
-bool Fill(const McapReader::Source& source, std::uint64_t size, std::string* to) {
-  constexpr std::uint64_t kStep = 1ULL << 20U;  // what a length claims is not allocated at once
-  to->clear();
-  while (to->size() < size) {
-    const std::size_t before = to->size();
-    const std::size_t most = std::min(kStep, size - before);
-    to->resize(before + most);
-    const std::size_t got = source(to->data() + before, most);
-    to->resize(before + got);
-    if (got < most) return false;
-  }
-  return true;
-}
-
-bool Skip(const McapReader::Source& source, std::uint64_t size) {
-  constexpr std::uint64_t kStep = 1ULL << 16U;
-  std::string step(std::min(kStep, size), '\0');
-  while (size > 0) {
-    const std::size_t most = std::min<std::uint64_t>(step.size(), size);
-    if (source(step.data(), most) < most) return false;
-    size -= most;
-  }
-  return true;
-}
-
-// Of the others, such as attachments, which may be large, nothing is looked at.
+// Of the others, such as attachments, only the checksum of them all is looked at.
 bool IsRead(std::uint8_t opcode) {
   const auto kind = static_cast<Opcode>(opcode);
   return kind == Opcode::kSchema || kind == Opcode::kChannel || kind == Opcode::kMessage ||
-         kind == Opcode::kChunk;
+         kind == Opcode::kChunk || kind == Opcode::kDataEnd;
 }
+
+// An attachment may be a whole file, and is passed over.
+bool IsBounded(std::uint8_t opcode) { return static_cast<Opcode>(opcode) != Opcode::kAttachment; }
 
 }  // namespace
 
@@ -69,6 +46,39 @@ ReadResult McapReader::Read(std::string_view bytes, const Visit& visit) {
       visit);
 }
 
+std::size_t McapReader::Pull(char* to, std::size_t most) {
+  const std::size_t got = source_(to, most);
+  crc_ = Crc32({to, got}, crc_);
+  last_ += std::string_view(to, got).substr(got - std::min(got, kMagic.size()));
+  last_.erase(0, last_.size() - std::min(last_.size(), kMagic.size()));
+  return got;
+}
+
+bool McapReader::Fill(std::uint64_t size, std::string* to) {
+  constexpr std::uint64_t kStep = 1ULL << 20U;  // what a length claims is not allocated at once
+  to->clear();
+  while (to->size() < size) {
+    const std::size_t before = to->size();
+    const std::size_t most = std::min(kStep, size - before);
+    to->resize(before + most);
+    const std::size_t got = Pull(to->data() + before, most);
+    to->resize(before + got);
+    if (got < most) return false;
+  }
+  return true;
+}
+
+bool McapReader::Skip(std::uint64_t size) {
+  constexpr std::uint64_t kStep = 1ULL << 16U;
+  std::string step(std::min(kStep, size), '\0');
+  while (size > 0) {
+    const std::size_t most = std::min<std::uint64_t>(step.size(), size);
+    if (Pull(step.data(), most) < most) return false;
+    size -= most;
+  }
+  return true;
+}
+
 McapReader::Next McapReader::Fault(std::string why) {
   result_.fault = std::move(why);
   return Next::kFault;
@@ -76,27 +86,33 @@ McapReader::Next McapReader::Fault(std::string why) {
 
 void McapReader::Run() {
   std::string bytes;
-  if (!Fill(source_, kMagic.size(), &bytes) || bytes != kMagic) {
+  if (!Fill(kMagic.size(), &bytes) || bytes != kMagic) {
     Fault("not an MCAP file: it does not start with the bytes of one");
     return;
   }
+  last_.clear();  // those that start a file
   constexpr std::uint64_t kPrefix = 1 + 8;
   while (true) {
-    if (!Fill(source_, kPrefix, &bytes)) break;
+    data_crc_ = crc_;
+    if (!Fill(kPrefix, &bytes)) break;
     FieldReader prefix(bytes);
     const auto opcode = prefix.Get<std::uint8_t>();
     const auto length = prefix.Get<std::uint64_t>();
-    if (!IsRead(opcode)) {
-      if (Take(opcode, {}, false) != Next::kGoOn) return;
-      if (!Skip(source_, length)) break;
-      continue;
-    }
-    if (length > kMostBytes) {
+    if (IsBounded(opcode) && length > kMostBytes) {
       Fault(fmt::format("a record claims {} bytes; at most {} are read", length, kMostBytes));
       return;
     }
-    if (!Fill(source_, length, &bytes)) break;
+    if (!IsRead(opcode)) {
+      if (Take(opcode, {}, false) != Next::kGoOn) return;
+      if (!Skip(length)) break;
+      continue;
+    }
+    if (!Fill(length, &bytes)) break;
     if (Take(opcode, bytes, false) != Next::kGoOn) return;
+  }
+  if (last_ == kMagic) {
+    Fault("a record claims more bytes than the file has, which was closed in good order");
+    return;
   }
   result_.cut_off = true;
 }
@@ -112,6 +128,7 @@ McapReader::Next McapReader::Take(std::uint8_t opcode, std::string_view content,
     case Opcode::kChunk:
       return in_chunk ? Fault("a chunk within a chunk") : TakeChunk(content);
     case Opcode::kDataEnd:
+      return in_chunk ? Fault("an end of the data within a chunk") : TakeDataEnd(content);
     case Opcode::kFooter:
       return Next::kEnd;
     default:
@@ -203,6 +220,14 @@ McapReader::Next McapReader::TakeChunk(std::string_view content) {
   }
   if (crc != 0 && Crc32(records) != crc) return Fault("a chunk's checksum is wrong");
   return TakeRecords(records);
+}
+
+McapReader::Next McapReader::TakeDataEnd(std::string_view content) {
+  FieldReader fields(content);
+  const auto crc = fields.Get<std::uint32_t>();
+  if (!fields.Ok()) return Fault("the end of the data ends early");
+  if (crc != 0 && crc != data_crc_) return Fault("the checksum of the data is wrong");
+  return Next::kEnd;
 }
 
 McapReader::Next McapReader::TakeRecords(std::string_view records) {

@@ -36,6 +36,11 @@ class McapReader {
 
   McapReader(const Source& source, const Visit& visit) : source_(source), visit_(visit) {}
   void Run();
+  // From the source into the checksum.
+  std::size_t Pull(char* to, std::size_t most);
+  // True if all of `size` came.
+  bool Fill(std::uint64_t size, std::string* to);
+  bool Skip(std::uint64_t size);
   // Of one record; chunks contain records of their own.
   Next Take(std::uint8_t opcode, std::string_view content, bool in_chunk);
   Next TakeSchema(std::string_view content);
@@ -43,6 +48,7 @@ class McapReader {
   Next TakeMessage(std::string_view content);
   Next TakeChunk(std::string_view content);
   Next TakeRecords(std::string_view records);
+  Next TakeDataEnd(std::string_view content);
   Next Keep(std::uint64_t size);
   Next Fault(std::string why);
 
@@ -50,7 +56,10 @@ class McapReader {
   const Visit& visit_;
   std::map<std::uint16_t, Schema> schemas_;
   std::map<std::uint16_t, Channel> channels_;
-  std::uint64_t kept_ = 0;  // bytes of both
+  std::uint64_t kept_ = 0;      // bytes of both
+  std::string last_;            // the last bytes that were read: those of kMagic end a file
+  std::uint32_t crc_ = 0;       // of all that was read
+  std::uint32_t data_crc_ = 0;  // of all before the record that is read, as a DataEnd says it
   ReadResult result_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <future>
+#include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -14,12 +16,22 @@ constexpr auto kPoll = std::chrono::milliseconds(20);
 constexpr Nanoseconds kAskAgain = std::chrono::seconds(1);
 constexpr Nanoseconds kReminder = std::chrono::seconds(30);
 
+std::future<link::FoundServers> NotAsked(const std::string& why) {
+  std::promise<link::FoundServers> answer;
+  answer.set_value({.addresses = {}, .fault = "cannot look up its discovery servers now: " + why});
+  return answer.get_future();
+}
+
 // On a thread that is not joined: a lookup without a name server takes seconds, and a stop takes
 // one at most.
 std::future<link::FoundServers> Ask(const std::vector<DiscoveryServer>& servers) {
   std::packaged_task<link::FoundServers()> task([servers] { return link::FindServers(servers); });
   auto answer = task.get_future();
-  std::thread(std::move(task)).detach();
+  try {
+    std::thread(std::move(task)).detach();
+  } catch (const std::system_error& error) {  // too many threads just now
+    return NotAsked(error.what());
+  }
   return answer;
 }
 
@@ -41,7 +53,10 @@ std::optional<std::vector<link::ServerAddress>> AwaitServers(
       continue;
     }
     const link::FoundServers found = answer.get();
-    if (found.fault.empty()) return found.addresses;
+    if (found.fault.empty()) {
+      tell("");
+      return found.addresses;
+    }
     why = found.fault;
     again = SteadyNow() + kAskAgain;
     if (SteadyNow() < remind) continue;

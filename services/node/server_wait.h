@@ -13,8 +13,8 @@
 namespace giveway {
 
 // Waits until every discovery server has an address, and passes the reason to `tell` repeatedly
-// meanwhile. The addresses, for the link: looked up once more, slowly, the watchdog would end the
-// process. Nothing if asked to stop.
+// meanwhile, and an empty one when it is over. The addresses, for the link: looked up once more,
+// slowly, the watchdog would end the process. Nothing if asked to stop.
 std::optional<std::vector<link::ServerAddress>> AwaitServers(
     const link::LinkOptions& options, const StopSignal& stop,
     const std::function<void(const std::string& why)>& tell);

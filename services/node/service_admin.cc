@@ -20,8 +20,8 @@ constexpr Nanoseconds kTrialPatience = std::chrono::seconds(8);
 // Why these profiles would not do; empty if they would. An operator has looked already: this is for
 // the one that did not.
 std::string WhatIsWrong(const QosProfiles& profiles, const QosProfiles& in_use,
-                        std::uint32_t fleet_size) {
-  qos::Findings findings = qos::Check({{profiles.name, profiles.text}}, {.vehicles = fleet_size});
+                        const qos::Deployment& deployment) {
+  qos::Findings findings = qos::Check({{profiles.name, profiles.text}}, deployment);
   const qos::XmlRead wanted = qos::ReadXml(profiles.text, profiles.name);
   const qos::XmlRead running = qos::ReadXml(in_use.text, in_use.name);
   if (wanted.root && running.root) {
@@ -44,10 +44,11 @@ std::vector<qos::Change> ChangesBetween(const QosProfiles& from, const QosProfil
 }  // namespace
 
 ServiceAdmin::ServiceAdmin(link::AdminLink* link, const link::LinkOptions& options,
-                           VehicleId vehicle, bool lockstep, auth::AdminGate gate,
-                           std::function<bool()> keep)
+                           const qos::Deployment& deployment, VehicleId vehicle, bool lockstep,
+                           auth::AdminGate gate, std::function<bool()> keep)
     : link_(*link),
       options_(options),
+      deployment_(deployment),
       vehicle_(vehicle),
       lockstep_(lockstep),
       gate_(std::move(gate)),
@@ -104,7 +105,7 @@ bool ServiceAdmin::Apply(const AdminRequest& order) {
     Refuse(order, "it tries the profiles of another order");
     return false;
   }
-  const std::string wrong = WhatIsWrong(order.profiles, in_use_, options_.fleet_size);
+  const std::string wrong = WhatIsWrong(order.profiles, in_use_, deployment_);
   if (!wrong.empty()) {
     Refuse(order, wrong);
     return false;
@@ -145,9 +146,14 @@ bool ServiceAdmin::FinishTrial() {
 
 NewFlags ServiceAdmin::ToComeBack() const {
   const QosProfiles& next = IsTaken() ? pending_->profiles : in_use_;
-  return {{"--qos", HoldText(next.name, next.text)},
-          {"--former-qos", HoldText(in_use_.name, in_use_.text)},
-          {"--rolled-back", ""}};
+  NewFlags flags{{"--former-qos", ""}, {"--rolled-back", ""}};
+  if (HoldTextFor("--qos", next.name, next.text, &flags)) {
+    HoldTextFor("--former-qos", in_use_.name, in_use_.text, &flags);
+    return flags;
+  }
+  HoldAgain(options_.qos.name);  // of an earlier restart, and read since
+  if (IsTaken()) flags["--rolled-back"] = "the new QoS cannot be held in memory";
+  return flags;
 }
 
 void ServiceAdmin::Refuse(const AdminRequest& order, const std::string& why) {

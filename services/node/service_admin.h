@@ -15,6 +15,7 @@
 #include "services/link/admin_link.h"
 #include "services/link/fastdds/link_options.h"
 #include "services/qos/changes.h"
+#include "services/qos/deployment.h"
 #include "services/runtime/line_budget.h"
 #include "services/runtime/program_trial.h"
 #include "services/runtime/restart.h"
@@ -24,12 +25,14 @@ namespace giveway {
 
 class ServiceAdmin {
  public:
-  // The link was made with `options`; `vehicle` is kNoVehicle for a world. In lockstep nothing that
-  // comes from outside the world may change a run, so orders to apply are refused.
+  // The link was made with `options`, for a fleet of `deployment`; `vehicle` is kNoVehicle for a
+  // world. In lockstep nothing that comes from outside the world may change a run, so orders to
+  // apply are refused.
   // `gate` says which orders are carried out at all. `keep` has the recording's ring kept: false
   // where there is none, or it is kept often enough.
-  ServiceAdmin(link::AdminLink* link, const link::LinkOptions& options, VehicleId vehicle,
-               bool lockstep, auth::AdminGate gate, std::function<bool()> keep = {});
+  ServiceAdmin(link::AdminLink* link, const link::LinkOptions& options,
+               const qos::Deployment& deployment, VehicleId vehicle, bool lockstep,
+               auth::AdminGate gate, std::function<bool()> keep = {});
 
   // Answers the order that made this process restart: it is in effect now; or not, where
   // `rolled_back` says why the process came back with what it had.
@@ -38,7 +41,8 @@ class ServiceAdmin {
   // it are lost.
   bool Serve();
   // The flags with which this process comes back with the profiles of the order that a restart is
-  // for, and can go back to those it has now. Where no order takes one: with those it has.
+  // for, and can go back to those it has now. Where no order takes one, or the new ones cannot be
+  // held: with those it has.
   NewFlags ToComeBack() const;
   // Of the order that a restart is for; 0 where none takes one.
   std::uint64_t Order() const { return IsTaken() ? pending_->number : 0; }
@@ -58,6 +62,7 @@ class ServiceAdmin {
 
   link::AdminLink& link_;
   const link::LinkOptions& options_;
+  const qos::Deployment deployment_;
   const VehicleId vehicle_;
   const bool lockstep_;
   auth::AdminGate gate_;

@@ -12,6 +12,7 @@
 #include "services/health/health_server.h"
 #include "services/link/fastdds/library_log.h"
 #include "services/link/fastdds/link_options.h"
+#include "services/node/environment_check.h"
 #include "services/runtime/process.h"
 #include "services/types/scenario.h"
 
@@ -49,7 +50,10 @@ inline constexpr Nanoseconds kFlushLog = std::chrono::milliseconds(200);
 // Runs the service unless the flags asked for help or were wrong.
 inline int ServiceMain(const std::variant<ServiceFlags, int>& parsed,
                        int (*run)(const ServiceFlags&, const StopSignal&)) {
-  if (const int* exit_code = std::get_if<int>(&parsed)) return *exit_code;
+  if (const int* exit_code = std::get_if<int>(&parsed)) {
+    if (*exit_code != 0) WarnOfEnvironment();  // a flag that is missing may be a misspelt twin
+    return *exit_code;
+  }
   const auto& flags = std::get<ServiceFlags>(parsed);
   if (!flags.ask_health.empty()) {
     return AskHealth(flags.health_address, static_cast<std::uint16_t>(flags.health_port),

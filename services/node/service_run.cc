@@ -10,8 +10,8 @@
 
 #include "services/link/fastdds/profile_file.h"
 #include "services/link/qos_trial.h"
-#include "services/node/qos_at_start.h"
 #include "services/node/service_main.h"
+#include "services/node/start_inputs.h"
 #include "services/qos/profile_set.h"
 #include "services/qos/xml_tree.h"
 #include "services/runtime/crash_fallback.h"
@@ -53,6 +53,12 @@ class FormerQos {
   const std::unique_ptr<HeldText> resume_;
   const CrashFallback crash_fallback_;
 };
+
+// What this process image was given and has not let go, and the next one is given others of.
+void LetGoOfReplaced(const ServiceFlags& flags, const NewFlags& back) {
+  if (back.contains("--former-qos")) LetGo(flags.former_qos);
+  if (back.contains("--go-on-from")) LetGo(flags.go_on_from);
+}
 
 bool UsesSharedMemory(const ServiceFlags& flags, const QosProfiles& profiles) {
   if (flags.leaves_out_shared_memory) return false;
@@ -104,7 +110,7 @@ int RunService(const ServiceFlags& flags, const Scenario& scenario, const StopSi
   LifeEnd end;
   try {
     const link::LinkOptions options =
-        LinkOptionsOf(flags, scenario, ReadSoundQos(flags.qos, scenario));
+        LinkOptionsOf(flags, scenario, ReadProfilesAndKey(flags, scenario));
     const auto guard_memory = [&] {
       if (former || flags.lockstep || full_memory) return;
       if (!UsesSharedMemory(flags, options.qos)) return;
@@ -118,6 +124,9 @@ int RunService(const ServiceFlags& flags, const Scenario& scenario, const StopSi
     guard_memory();
     LetGo(flags.qos);
     end = live(options, settled);
+    // It may have ended before it settled: what was held would stay open in each image to come.
+    former.reset();
+    if (end.back) LetGoOfReplaced(flags, *end.back);
   } catch (const std::exception& error) {
     if (!former) throw;
     end.back = former->Because(error.what());
@@ -127,6 +136,7 @@ int RunService(const ServiceFlags& flags, const Scenario& scenario, const StopSi
   // A stop that came while the link was closed would be forgotten by a new process image.
   if (stop.IsSet()) return end.exit_code;
   FlushLog(kFlushLog);
+  full_memory.reset();  // what it holds would stay open in each process image to come
   end.back->try_emplace(kMemoryLost, "");  // that was another restart
   RestartWith(*end.back);
 }

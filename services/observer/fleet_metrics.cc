@@ -41,34 +41,41 @@ class Families {
   void Add(std::vector<Label> labels, double value) {
     families_.back().metric.push_back(MakeMetric(std::move(labels), value, families_.back().type));
   }
-  // One number for each vehicle that has published its status.
+  // Of each vehicle that is heard and has published its status: the last one of a vehicle that is
+  // silent is history, by which no alert may fire.
+  template <typename Use>
+  void EachStatus(Use&& use) const {
+    for (const auto& [id, heard] : view_.Heard().Vehicles()) {
+      if (heard.status && heard.LivenessAt(now_) == Liveness::kHeard) use(id, *heard.status);
+    }
+  }
+  // One number of each status.
   template <typename Of>
   void OfStatus(const std::string& name, const std::string& help, MetricType type, Of&& of) {
     Begin("giveway_vehicle_" + name, help, type);
-    for (const auto& [id, heard] : view_.Heard().Vehicles()) {
-      if (heard.status) Add({Vehicle(id)}, static_cast<double>(of(*heard.status)));
-    }
+    EachStatus([&](VehicleId id, const VehicleStatus& status) {
+      Add({Vehicle(id)}, static_cast<double>(of(status)));
+    });
   }
   template <typename Of>
   void ByReason(const std::string& name, const std::string& help, const std::string& label,
                 const std::vector<std::pair<const char*, Of>>& kinds) {
     Begin("giveway_vehicle_" + name, help, MetricType::Counter);
-    for (const auto& [id, heard] : view_.Heard().Vehicles()) {
-      if (!heard.status) continue;
-      for (const auto& [kind, of] : kinds) Add({Vehicle(id), {label, kind}}, of(*heard.status));
-    }
+    EachStatus([&](VehicleId id, const VehicleStatus& status) {
+      for (const auto& [kind, of] : kinds) Add({Vehicle(id), {label, kind}}, of(status));
+    });
   }
   void Histogram(const std::string& name, const std::string& help,
                  const FigureHistogram VehicleView::*figure) {
     Begin("giveway_vehicle_" + name, help, MetricType::Histogram);
-    for (const auto& [id, heard] : view_.Heard().Vehicles()) {
+    EachStatus([&](VehicleId id, const VehicleStatus&) {
       const VehicleView* vehicle = view_.Find(id);
-      if (vehicle == nullptr || !heard.status) continue;
+      if (vehicle == nullptr) return;
       ClientMetric metric;
       metric.label = {Vehicle(id)};
       metric.histogram = BucketsOf(vehicle->*figure);
       families_.back().metric.push_back(std::move(metric));
-    }
+    });
   }
 
   const FleetView& View() const { return view_; }
@@ -113,37 +120,32 @@ void AddLiveness(Families* to) {
 
 void AddDriving(Families* to) {
   to->Begin("giveway_vehicle_mode", "1 for the mode it is in.", MetricType::Gauge);
-  for (const auto& [id, heard] : to->View().Heard().Vehicles()) {
-    if (!heard.status) continue;
+  to->EachStatus([to](VehicleId id, const VehicleStatus& status) {
     for (const Mode mode : {Mode::kCooperative, Mode::kSensorOnly, Mode::kHalt, Mode::kLeaving}) {
       to->Add({Families::Vehicle(id), {"mode", std::string(Name(mode))}},
-              heard.status->decision.mode == mode);
+              status.decision.mode == mode);
     }
-  }
+  });
   to->Begin("giveway_vehicle_rule", "1 for the rule that decides, by its name.", MetricType::Gauge);
-  for (const auto& [id, heard] : to->View().Heard().Vehicles()) {
-    if (!heard.status) continue;
-    to->Add({Families::Vehicle(id), {"rule", std::string(Name(heard.status->decision.rule))}}, 1);
-  }
+  to->EachStatus([to](VehicleId id, const VehicleStatus& status) {
+    to->Add({Families::Vehicle(id), {"rule", std::string(Name(status.decision.rule))}}, 1);
+  });
   to->OfStatus("speed_meters_per_second", "Forward speed as measured.", MetricType::Gauge,
                [](const VehicleStatus& status) { return status.forward_m_s; });
   to->Begin("giveway_vehicle_nearest_echo_meters", "The nearest ultrasonic echo.",
             MetricType::Gauge);
-  for (const auto& [id, heard] : to->View().Heard().Vehicles()) {
-    if (heard.status && heard.status->nearest_echo_m) {
-      to->Add({Families::Vehicle(id)}, *heard.status->nearest_echo_m);
-    }
-  }
+  to->EachStatus([to](VehicleId id, const VehicleStatus& status) {
+    if (status.nearest_echo_m) to->Add({Families::Vehicle(id)}, *status.nearest_echo_m);
+  });
   to->OfStatus("step_p99_seconds", "Processor time of the last 1000 decisions, 99th percentile.",
                MetricType::Gauge,
                [](const VehicleStatus& status) { return status.step_p99_us * kSecondsPerUs; });
   to->Begin("giveway_vehicle_heap_bytes", "Heap in use, as its allocator counts it.",
             MetricType::Gauge);
-  for (const auto& [id, heard] : to->View().Heard().Vehicles()) {
-    if (heard.status && heard.status->heap_bytes) {
-      to->Add({Families::Vehicle(id)}, static_cast<double>(*heard.status->heap_bytes));
-    }
-  }
+  to->EachStatus([to](VehicleId id, const VehicleStatus& status) {
+    if (!status.heap_bytes) return;
+    to->Add({Families::Vehicle(id)}, static_cast<double>(*status.heap_bytes));
+  });
   to->OfStatus("loop_max_seconds", "The longest time from ranges to command.", MetricType::Gauge,
                [](const VehicleStatus& status) { return status.loop_max_ms * kSecondsPerMs; });
 }
@@ -222,9 +224,9 @@ void AddPackets(Families* to) {
 
 void AddWorld(Families* to) {
   const WorldSnapshot& world = to->View().Heard().World();
-  to->Begin("giveway_observer_world_heard", "1 if a world is heard.", MetricType::Gauge);
-  const bool heard = world.heard_at && to->Now() - *world.heard_at <= FleetSnapshot::kSilentAfter;
-  to->Add({}, heard);
+  to->Begin("giveway_observer_world_heard", "1 if a world is heard, or is there without vehicles.",
+            MetricType::Gauge);
+  to->Add({}, world.IsHeard(to->Now()));
   to->Begin("giveway_observer_run_seconds", "Time since the start signal.", MetricType::Gauge);
   to->Add({}, world.time_s);
 }

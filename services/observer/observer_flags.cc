@@ -23,7 +23,9 @@ Examples
   giveway-observer --ros2 --ros2-domain 42        # for ROS_DOMAIN_ID=42
   giveway-observer --foxglove-port 8765           # Foxglove: open ws://localhost:8765
 
-Exit code 2: a flag, a file, the port or the network was not usable; stderr says which.
+Exit code: 0 it was stopped by SIGTERM or SIGINT; 1 the network interface was replaced by another; 2 a
+flag, a file, the port or the network was not usable: stderr says which; 70 the loop hung, and the
+watchdog ended it; 130 or 143 it had not left a second after SIGINT or SIGTERM, or a second signal came.
 )";
 
 struct FlagHelp {
@@ -104,6 +106,7 @@ ObserverFlags Read(FlagValues* values, const FindOnlyFleet& find) {
   }
   flags.host_names = Split(values->Text("--host-name").value_or(""));
   ReadRos2(values, &flags);
+  flags.hang_on_signal = values->Switch("--hang-on-signal");
   flags.log_format = values->OneOf("--log-format", {"text", "json"}).value_or(flags.log_format);
   flags.log_level =
       values->OneOf("--log-level", {"debug", "info", "warning", "error"}).value_or(flags.log_level);
@@ -121,6 +124,8 @@ std::variant<ObserverFlags, int> ParseObserverFlags(int argc, const char* const*
   line.AddSwitch("--ros2",
                  "publishes odometry, ranges, transforms, markers and motor commands as "
                  "ROS 2 topics: rt/giveway/v1/odom");
+  line.AddSwitch("--hang-on-signal",
+                 "a drill: SIGUSR1 makes the loop hang, SIGUSR2 makes it resume");
   line.AddOptional("--health", "live|ready",
                    "asks the observer at --address and --port, prints the answer, and exits: "
                    "0 yes, 1 no, 2 no answer (ready if no value follows)");

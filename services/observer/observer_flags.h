@@ -27,6 +27,7 @@ struct ObserverFlags {
   std::string ask_health;               // not a service but a question to one: "live" or "ready"
   std::string log_format = "text";
   std::string log_level = "info";
+  bool hang_on_signal = false;    // a drill, see HangSignal
   bool ros2 = false;              // publishes the fleet as ROS 2 messages
   double ros2_rate_hz = 10;       // 0.1..100
   std::uint32_t ros2_domain = 0;  // 1..99; 0: that of the fleet

@@ -1,5 +1,7 @@
 #include "services/observer/observer_service.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <string_view>
@@ -13,6 +15,8 @@
 #include "services/observer/fleet/scene_json.h"
 #include "services/observer/page/page_text.h"
 #include "services/observer/server/request_rules.h"
+#include "services/runtime/hang_signal.h"
+#include "services/runtime/watchdog.h"
 
 namespace giveway {
 namespace {
@@ -42,6 +46,10 @@ link::LinkOptions LinkOptionsOf(const ObserverFlags& flags,
   if (options.area.empty()) options.area = scenario ? scenario->area : "main";
   options.fleet_size = kFleetSize;
   options.discovery_servers = flags.discovery_servers;
+  // Once: participants that are made later, by the loop that is watched, must not wait for names.
+  const link::FoundServers found = link::FindServers(flags.discovery_servers);
+  if (!found.fault.empty()) throw link::LinkError(found.fault);
+  options.server_addresses = found.addresses;
   return options;
 }
 
@@ -50,6 +58,7 @@ link::LinkOptions Ros2LinkOptions(const ObserverFlags& flags, link::LinkOptions 
   if (flags.ros2_domain == 0 || flags.ros2_domain == flags.domain) return options;
   options.domain = flags.ros2_domain;
   options.discovery_servers.clear();
+  options.server_addresses.clear();
   return options;
 }
 
@@ -81,6 +90,12 @@ std::unique_ptr<FoxgloveFeed> FoxgloveOf(const ObserverFlags& flags,
   return feed;
 }
 
+// Whether anything of a fleet came.
+bool HasHeard(const link::Observed& observed) {
+  return !observed.truths.empty() || !observed.beacons.empty() || !observed.statuses.empty() ||
+         !observed.roster.empty() || !observed.events.empty();
+}
+
 PageAnswer Text(std::string body, int status = 200) {
   return {std::move(body), "text/plain; charset=utf-8", status};
 }
@@ -110,7 +125,10 @@ PageSources ObserverService::Sources(const ObserverFlags& flags,
                                      const std::optional<Scenario>& scenario) {
   PageSources sources;
   sources.page = PageText();
-  sources.scene = SceneJson({"domain " + std::to_string(flags.domain), scenario});
+  // In a container each observer is process 1.
+  const std::string observer =
+      std::to_string(::getpid()) + " of " + std::to_string(SteadyNow().count());
+  sources.scene = SceneJson({"domain " + std::to_string(flags.domain), scenario, observer});
   sources.frames = &board_;
   sources.host_names = flags.host_names;
   sources.get = [this](const std::string& path, const ServerFigures& server) {
@@ -124,7 +142,8 @@ ObserverService::~ObserverService() { board_.Close(); }
 PageAnswer ObserverService::Ready() {
   constexpr int kUnavailable = 503;
   const std::lock_guard lock(mutex_);
-  if (view_.Heard().IsAnyHeard()) return Text("ready\n");
+  const FleetSnapshot& fleet = view_.Heard();
+  if (fleet.IsAnyHeard() || fleet.World().is_empty) return Text("ready\n");
   return Text("not ready: no vehicle and no world was heard yet\n", kUnavailable);
 }
 
@@ -166,7 +185,8 @@ std::optional<PageAnswer> ObserverService::Get(const std::string& path,
   return PageAnswer{*vehicle + "\n"};
 }
 
-void ObserverService::Turn() {
+// False once it can hear no more.
+bool ObserverService::Turn() {
   const link::Observed observed = link_.Take();
   const SteadyTime now = SteadyNow();
   LogNews(observed.refusals, {}, now, &refusal_log_);
@@ -175,6 +195,7 @@ void ObserverService::Turn() {
   view_.Fold(observed, now);
   refused_samples_ += observed.refused;
   turned_ns_ = now.count();
+  return !interface_check_.MustEnd(now, HasHeard(observed));
 }
 
 void ObserverService::PublishRos2(const link::Observed& observed) {
@@ -195,11 +216,14 @@ void ObserverService::Publish(SteadyTime now) {
   ++frames_;
 }
 
-void ObserverService::Run(const StopSignal& stop) {
+bool ObserverService::Run(const StopSignal& stop) {
+  Watchdog watchdog;
   SteadyTime next_frame = SteadyNow();
   while (!stop.IsSet()) {
     SleepUntil(SteadyNow() + kTurn);
-    Turn();
+    if (HangSignal::IsUp()) HangWhileUp();
+    if (!Turn()) return false;
+    watchdog.Feed();
     const SteadyTime now = SteadyNow();
     if (foxglove_ != nullptr) foxglove_->Turn(now);
     if (now < next_frame || server_.Figures().streams == 0) continue;  // else: as soon as one comes
@@ -208,6 +232,7 @@ void ObserverService::Run(const StopSignal& stop) {
     const bool large = view_.Heard().Vehicles().size() > kLargeFleet;
     next_frame = now + (large ? kFrameOfLargeFleet : kFrame);
   }
+  return true;
 }
 
 }  // namespace giveway

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "services/link/observer_link.h"
+#include "services/node/interface_check.h"
 #include "services/observer/fleet/fleet_view.h"
 #include "services/observer/fleet_metrics.h"
 #include "services/observer/foxglove/foxglove_feed.h"
@@ -28,7 +29,9 @@ class ObserverService {
   explicit ObserverService(const ObserverFlags& flags);
   ~ObserverService();
 
-  void Run(const StopSignal& stop);
+  // False where its network interface is another: it hears nothing until it is started again. A
+  // loop that hangs ends the process, see Watchdog.
+  bool Run(const StopSignal& stop);
 
  private:
   ObserverService(const ObserverFlags& flags, const std::optional<Scenario>& scenario);
@@ -36,7 +39,7 @@ class ObserverService {
   std::optional<PageAnswer> Get(const std::string& path, const ServerFigures& server);
   PageAnswer Metrics(const ServerFigures& server);
   PageAnswer Ready();
-  void Turn();
+  bool Turn();
   void PublishRos2(const link::Observed& observed);
   void Publish(SteadyTime now);
 
@@ -48,6 +51,7 @@ class ObserverService {
   std::atomic<std::int64_t> turned_ns_;
   FrameBoard board_;
   link::ObserverLink link_;
+  InterfaceCheck interface_check_{[this] { return link_.InterfaceChange(); }};
   std::optional<Ros2Publisher> ros2_;  // of the loop
   bool ros2_refusal_logged_ = false;
   std::unique_ptr<FoxgloveFeed> foxglove_;  // null where it was not asked for

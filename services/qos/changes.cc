@@ -1,6 +1,7 @@
 #include "services/qos/changes.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -20,17 +21,25 @@ bool IsPolicy(Owner owner, const std::string& path) {
   });
 }
 
-// Adds the texts below an element whose path `skip` does not know; those of a list in its order.
+// Adds the texts and attributes below an element whose path `skip` does not know. Where several
+// children have one name, those behind the first are numbered: "locator[2]".
 template <typename Skip>
 void Flatten(const XmlElement& element, const std::string& owner, const std::string& path,
-             const Skip& skip, Elsewhere& to) {
-  if (!path.empty() && skip(path)) return;
-  if (!element.text.empty() && !path.empty()) {
-    std::string& text = to[{owner, path}];
-    text += (text.empty() ? "" : " ") + element.text;
+             const std::string& numbered, const Skip& skip, Elsewhere& to) {
+  if (!path.empty()) {
+    if (skip(path)) return;
+    if (!element.text.empty()) to[{owner, numbered}] = element.text;
+    for (const XmlAttribute& attribute : element.attributes) {
+      to[{owner, numbered + '@' + attribute.name}] = attribute.value;
+    }
   }
+  std::map<std::string, std::size_t> seen;
   for (const XmlElement& child : element.children) {
-    Flatten(child, owner, path.empty() ? child.name : path + '/' + child.name, skip, to);
+    const std::size_t number = ++seen[child.name];
+    const std::string name =
+        number == 1 ? child.name : child.name + '[' + std::to_string(number) + ']';
+    Flatten(child, owner, path.empty() ? child.name : path + '/' + child.name,
+            numbered.empty() ? name : numbered + '/' + name, skip, to);
   }
 }
 
@@ -44,14 +53,14 @@ void FlattenProfiles(const XmlElement& profiles, Elsewhere& to) {
   for (const XmlElement& child : profiles.children) {
     if (const auto owner = kOwners.find(child.name); owner != kOwners.end()) {
       const auto is_policy = [&](const std::string& path) { return IsPolicy(owner->second, path); };
-      Flatten(child, child.Attribute("profile_name"), "", is_policy, to);
+      Flatten(child, child.Attribute("profile_name"), "", "", is_policy, to);
     } else if (child.name == "transport_descriptors") {
       for (const XmlElement& descriptor : child.children) {
         const XmlElement* const id = descriptor.Child("transport_id");
-        Flatten(descriptor, "transport " + (id == nullptr ? "" : id->text), "", nothing, to);
+        Flatten(descriptor, "transport " + (id == nullptr ? "" : id->text), "", "", nothing, to);
       }
     } else {
-      Flatten(child, child.name, "", nothing, to);
+      Flatten(child, child.name, "", "", nothing, to);
     }
   }
 }
@@ -62,7 +71,7 @@ Elsewhere ElsewhereOf(const XmlElement& root) {
   for (const XmlElement& child : root.children) {
     if (child.name != "profiles" && root.name != "profiles") {
       Flatten(
-          child, child.name, "", [](const std::string&) { return false; }, all);
+          child, child.name, "", "", [](const std::string&) { return false; }, all);
     }
   }
   return all;
@@ -75,7 +84,7 @@ void AddValues(const Profile& from, const Profile& to, std::vector<Change>* chan
     if (!Has(to.owner, info) || before == after) continue;
     const Effect effect = info.policy == Policy::kDeadline ? Effect::kNow : Effect::kRestart;
     changes->push_back({to.name, std::string(info.name), Text(info.policy, before),
-                        Text(info.policy, after), effect, after});
+                        Text(info.policy, after), effect, after, before});
   }
 }
 
@@ -91,7 +100,7 @@ void AddValues(const ProfileSet& from, const ProfileSet& to, std::vector<Change>
       AddValues(*before, *after, changes);
     } else {
       changes->push_back({name, "profile", before == nullptr ? "" : "there",
-                          after == nullptr ? "" : "there", Effect::kRestart, 0});
+                          after == nullptr ? "" : "there", Effect::kRestart, 0, 0});
     }
   }
 }
@@ -101,12 +110,19 @@ void AddValues(const ProfileSet& from, const ProfileSet& to, std::vector<Change>
 std::vector<Change> Changes(const XmlElement& from, const XmlElement& to) {
   std::vector<Change> changes;
   AddValues(ReadProfiles(from, ""), ReadProfiles(to, ""), &changes);
+  std::ranges::move(ChangesElsewhere(from, to), std::back_inserter(changes));
+  return changes;
+}
+
+std::vector<Change> ChangesElsewhere(const XmlElement& from, const XmlElement& to) {
+  std::vector<Change> changes;
   Elsewhere before = ElsewhereOf(from);
   Elsewhere after = ElsewhereOf(to);
   for (const auto& [where, text] : before) after.try_emplace(where, "");
   for (const auto& [where, text] : after) {
     const std::string& old = before[where];
-    if (old != text) changes.push_back({where.first, where.second, old, text, Effect::kRestart, 0});
+    if (old != text)
+      changes.push_back({where.first, where.second, old, text, Effect::kRestart, 0, 0});
   }
   return changes;
 }

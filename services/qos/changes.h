@@ -24,11 +24,15 @@ struct Change {
   std::string to;
   Effect effect = Effect::kRestart;
   std::int64_t number = 0;  // the new value, of a policy
+  std::int64_t before = 0;  // the former one
 };
 
 // Profiles in the order of their names. A value that is only written down differently, as a default
 // that the other file leaves out, is no change.
 std::vector<Change> Changes(const XmlElement& from, const XmlElement& to);
+// Those of them that no policy of an endpoint or participant holds: transports, buffers, discovery
+// servers, the library's settings.
+std::vector<Change> ChangesElsewhere(const XmlElement& from, const XmlElement& to);
 
 // Which endpoints a process has.
 enum class Role : std::uint8_t { kVehicle, kWorld, kOperator };

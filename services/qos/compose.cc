@@ -6,11 +6,10 @@
 #include <charconv>
 #include <optional>
 
+#include "services/qos/compose_text.h"
+
 namespace giveway::qos {
 namespace {
-
-// Expansions of one text: a variable whose value names itself would never end.
-constexpr int kMostExpansions = 100;
 
 // Maps merged into maps merged into maps: an alias may lead back to where it stands.
 constexpr int kMostMerges = 4;
@@ -35,7 +34,7 @@ YAML::Node ValueOf(const YAML::Node& map, const std::string& key, int merges = k
 class ComposeReader {
  public:
   ComposeReader(const std::string& file, const std::vector<std::string>& variables)
-      : file_(file), variables_(variables) {}
+      : file_(file), text_(variables) {}
 
   void Read(const YAML::Node& root);
   ComposeRead Take() { return std::move(read_); }
@@ -48,53 +47,28 @@ class ComposeReader {
     read_.findings.push_back({severity, rule, place, subject, std::move(values),
                               std::move(consequence), std::move(remedy)});
   }
-  std::string Expanded(std::string text) const;
-  std::optional<std::string> Variable(const std::string& name) const;
-  std::string Text(const YAML::Node& node) const {
-    return node && node.IsScalar() ? Expanded(node.Scalar()) : "";
+  std::string Text(const YAML::Node& node) {
+    return node && node.IsScalar() ? text_.Expanded(node.Scalar()) : "";
   }
-  std::vector<std::string> Words(const YAML::Node& node) const;
+  std::vector<std::string> Words(const YAML::Node& node);
 
   void ReadService(const std::string& name, const YAML::Node& node);
-  void ReadEnvironment(const YAML::Node& node, int merges, ComposeService* service) const;
-  void ReadQos(const YAML::Node& node, ComposeService* service) const;
-  void ReadMounts(const YAML::Node& volumes, ComposeService* service) const;
+  void AddVariable(const std::string& name, const std::optional<std::string>& value,
+                   const YAML::Node& at, ComposeService* service);
+  void ReadEnvironment(const YAML::Node& node, int merges, ComposeService* service);
+  void ReadMerged(const YAML::Node& merged, int merges, ComposeService* service);
+  void ReadFlags(const YAML::Node& node, ComposeService* service);
+  void ReadMounts(const YAML::Node& volumes, ComposeService* service);
   void ReadContainers(const YAML::Node& node, ComposeService* service);
-  bool Mentions(const YAML::Node& node, std::string_view what) const;
+  bool Mentions(const YAML::Node& node, std::string_view what);
 
   const std::string& file_;
-  const std::vector<std::string>& variables_;
+  ComposeText text_;
   ComposeRead read_;
 };
 
-std::optional<std::string> ComposeReader::Variable(const std::string& name) const {
-  for (const std::string& variable : variables_) {
-    if (variable.starts_with(name + "=")) return variable.substr(name.size() + 1);
-  }
-  return std::nullopt;
-}
-
-// ${NAME}, ${NAME:-otherwise} and ${NAME-otherwise}; anything else stays as it is.
-std::string ComposeReader::Expanded(std::string text) const {
-  std::size_t from = 0;
-  for (int i = 0; i < kMostExpansions; ++i) {
-    const std::size_t begin = text.find("${", from);
-    const std::size_t end = begin == std::string::npos ? begin : text.find('}', begin);
-    if (end == std::string::npos) break;
-    const std::string inner = text.substr(begin + 2, end - begin - 2);
-    const std::size_t dash = inner.find('-');
-    const bool or_empty = dash != std::string::npos && dash > 0 && inner[dash - 1] == ':';
-    const std::string name = inner.substr(0, or_empty ? dash - 1 : dash);
-    std::string value = Variable(name).value_or("");
-    if (value.empty() && dash != std::string::npos) value = inner.substr(dash + 1);
-    text.replace(begin, end - begin + 1, value);
-    from = begin + value.size();
-  }
-  return text;
-}
-
 // A command as compose splits it: a list as it is, a text at its blanks.
-std::vector<std::string> ComposeReader::Words(const YAML::Node& node) const {
+std::vector<std::string> ComposeReader::Words(const YAML::Node& node) {
   std::vector<std::string> words;
   if (node && node.IsSequence()) {
     for (const auto& word : node) words.push_back(Text(word));
@@ -109,53 +83,84 @@ std::vector<std::string> ComposeReader::Words(const YAML::Node& node) const {
   return words;
 }
 
-bool ComposeReader::Mentions(const YAML::Node& node, std::string_view what) const {
+bool ComposeReader::Mentions(const YAML::Node& node, std::string_view what) {
   const auto has = [&](const std::string& word) { return word.find(what) != std::string::npos; };
   return has(Text(ValueOf(node, "image"))) ||
          std::ranges::any_of(Words(ValueOf(node, "command")), has) ||
          std::ranges::any_of(Words(ValueOf(node, "entrypoint")), has);
 }
 
-void ComposeReader::ReadEnvironment(const YAML::Node& node, int merges,
-                                    ComposeService* service) const {
-  const auto add = [&](const std::string& name, const std::string& value, const YAML::Node& at) {
-    service->environment.push_back({name, value, PlaceOf(at)});
-  };
+// Without a value a variable is that of the shell, or there is none.
+void ComposeReader::AddVariable(const std::string& name, const std::optional<std::string>& value,
+                                const YAML::Node& at, ComposeService* service) {
+  const char* const outside = value ? nullptr : text_.Variable(name);
+  if (value || outside != nullptr) {
+    service->environment.push_back({name, value ? *value : outside, PlaceOf(at)});
+  }
+}
+
+void ComposeReader::ReadEnvironment(const YAML::Node& node, int merges, ComposeService* service) {
   if (node && node.IsSequence()) {
     for (const auto& item : node) {
       const std::string text = Text(item);
-      const std::size_t equals = std::min(text.find('='), text.size());
-      const std::string name = text.substr(0, equals);
-      add(name, equals < text.size() ? text.substr(equals + 1) : Variable(name).value_or(""), item);
+      const std::size_t equals = text.find('=');
+      const bool says = equals != std::string::npos;
+      AddVariable(text.substr(0, equals),
+                  says ? std::optional(text.substr(equals + 1)) : std::nullopt, item, service);
     }
   } else if (node && node.IsMap()) {
-    const YAML::Node merged = node["<<"];
-    if (merged && merges > 0) ReadEnvironment(merged, merges - 1, service);
+    if (merges > 0) ReadMerged(node["<<"], merges - 1, service);
     for (const auto& item : node) {
-      if (item.first.IsScalar() && item.first.Scalar() != "<<")
-        add(item.first.Scalar(), Text(item.second), item.first);
+      if (!item.first.IsScalar() || item.first.Scalar() == "<<") continue;
+      AddVariable(item.first.Scalar(),
+                  item.second.IsNull() ? std::nullopt : std::optional(Text(item.second)),
+                  item.first, service);
     }
   }
+}
+
+// A map, or maps of which the first counts most: what is read last counts.
+void ComposeReader::ReadMerged(const YAML::Node& merged, int merges, ComposeService* service) {
+  if (!merged) return;
+  if (merged.IsMap()) ReadEnvironment(merged, merges, service);
+  if (!merged.IsSequence()) return;
+  for (std::size_t i = merged.size(); i > 0; --i) {
+    if (merged[i - 1].IsMap()) ReadEnvironment(merged[i - 1], merges, service);
+  }
+}
+
+// The value of a flag in a command; nothing if it is not there.
+std::optional<std::string> FlagIn(const std::vector<std::string>& words, const std::string& flag) {
+  std::optional<std::string> value;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i].starts_with(flag + "=")) value = words[i].substr(flag.size() + 1);
+    if (words[i] == flag && i + 1 < words.size()) value = words[i + 1];
+  }
+  return value;
 }
 
 // A flag of the command counts more than the variable, as for the services themselves.
-void ComposeReader::ReadQos(const YAML::Node& node, ComposeService* service) const {
+void ComposeReader::ReadFlags(const YAML::Node& node, ComposeService* service) {
   for (const ComposeVariable& variable : service->environment) {
-    if (variable.name != "GIVEWAY_QOS") continue;
-    service->qos = variable.value;
-    service->qos_place = variable.place;
+    if (variable.name == "GIVEWAY_QOS") {
+      service->qos = variable.value;
+      service->qos_place = variable.place;
+    } else if (variable.name == "GIVEWAY_DOMAIN") {
+      service->domain = variable;
+    }
   }
   const YAML::Node command = ValueOf(node, "command");
   const std::vector<std::string> words = Words(command);
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool joined = words[i].starts_with("--qos=");
-    if (!joined && (words[i] != "--qos" || i + 1 == words.size())) continue;
-    service->qos = joined ? words[i].substr(6) : words[i + 1];
+  if (const auto qos = FlagIn(words, "--qos")) {
+    service->qos = *qos;
     service->qos_place = PlaceOf(command);
+  }
+  if (const auto domain = FlagIn(words, "--domain")) {
+    service->domain = {"--domain", *domain, PlaceOf(command)};
   }
 }
 
-void ComposeReader::ReadMounts(const YAML::Node& volumes, ComposeService* service) const {
+void ComposeReader::ReadMounts(const YAML::Node& volumes, ComposeService* service) {
   if (!volumes || !volumes.IsSequence()) return;
   for (const auto& volume : volumes) {
     if (volume.IsMap()) {
@@ -198,7 +203,7 @@ void ComposeReader::ReadService(const std::string& name, const YAML::Node& node)
     Add(PlaceOf(other), Severity::kWarning, "env_file_not_read", name, "env_file",
         "What it sets was not looked at.", "environment, or check with what it sets");
   }
-  ReadQos(node, &service);
+  ReadFlags(node, &service);
   ReadMounts(ValueOf(node, "volumes"), &service);
   ReadContainers(node, &service);
   service.is_vehicle = name.find("vehicle") != std::string::npos || Mentions(node, "vehicle");
@@ -214,6 +219,11 @@ void ComposeReader::Read(const YAML::Node& root) {
       if (item.first.IsScalar() && item.second.IsMap())
         ReadService(item.first.Scalar(), item.second);
     }
+  }
+  for (const std::string& name : text_.Missing()) {
+    Add({file_, 0}, Severity::kError, "compose_variable_missing", name, "is required and not set",
+        "The engine refuses the file, and nothing starts.",
+        "set it in this shell or in the .env next to the file");
   }
   if (!read_.services.empty()) return;
   Add({file_, 0}, Severity::kError, "no_fleet_services", "", "no service names giveway",

@@ -3,7 +3,7 @@
 //
 // Services are the fleet's if their image, command or a variable names giveway; others are passed
 // over. Of YAML and compose it knows anchors and merge keys, both forms of lists and maps, and
-// ${NAME}, ${NAME:-otherwise}; an env_file is named as not read.
+// variables (compose_text.h); an env_file is named as not read.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,8 @@ struct ComposeService {
   std::string name;
   Place place;
   std::vector<ComposeVariable> environment;
-  std::string qos;  // as --qos or GIVEWAY_QOS says; empty: the shipped default
+  ComposeVariable domain;  // as --domain or GIVEWAY_DOMAIN says last; no name: neither does
+  std::string qos;         // as --qos or GIVEWAY_QOS says; empty: the shipped default
   Place qos_place;
   std::vector<std::pair<std::string, std::string>> mounts;  // path on the host, path inside
   std::int64_t containers = 1;

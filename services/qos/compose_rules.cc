@@ -8,26 +8,19 @@
 namespace giveway::qos {
 namespace {
 
-// What the service's variable says last; empty if it is not set.
-ComposeVariable Last(const ComposeService& service, std::string_view name) {
-  const auto found = std::find_if(service.environment.rbegin(), service.environment.rend(),
-                                  [&](const auto& variable) { return variable.name == name; });
-  return found == service.environment.rend() ? ComposeVariable{} : *found;
-}
-
 void CheckDomains(const std::vector<ComposeService>& services, Findings* findings) {
   const ComposeService* first = nullptr;
   for (const ComposeService& service : services) {
-    const ComposeVariable domain = Last(service, "GIVEWAY_DOMAIN");
+    const ComposeVariable& domain = service.domain;
     if (domain.value.empty()) continue;
     if (first == nullptr) {
       first = &service;
       continue;
     }
-    const ComposeVariable other = Last(*first, "GIVEWAY_DOMAIN");
+    const ComposeVariable& other = first->domain;
     if (domain.value == other.value) continue;
     findings->push_back({Severity::kError, "domain_split", domain.place, service.name,
-                         "GIVEWAY_DOMAIN " + domain.value + ", and " + other.value + " in " +
+                         domain.name + " " + domain.value + ", and " + other.value + " in " +
                              first->name + " (line " + std::to_string(other.place.line) + ")",
                          "The two never hear of each other.", "one domain for the whole fleet"});
   }

@@ -47,7 +47,6 @@ struct Deployment {
   std::int64_t vehicles_a_host = 0;  // that share ports; 0: all of them
   std::int64_t signals = 0;
   std::int64_t tick_ns = 50'000'000;
-  std::int64_t beacon_age_limit_ns = 200'000'000;
   // Sets must be complete; false for a file that is only part of one.
   bool complete = true;
   std::vector<std::string> environment;   // NAME=value of the processes

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "services/qos/qos_rules.h"
+#include "services/types/nearest_name.h"
 
 namespace giveway::qos {
 namespace {
@@ -44,32 +45,81 @@ constexpr std::array kVariables = {
              "unset it outside of experiments"},
 };
 
-constexpr std::array<std::string_view, 29> kOurs = {
-    "GIVEWAY_DOMAIN",           "GIVEWAY_INTERFACE",  "GIVEWAY_QOS",
-    "GIVEWAY_SCENARIO",         "GIVEWAY_ID",         "GIVEWAY_SEED",
-    "GIVEWAY_BEHAVIOUR",        "GIVEWAY_DURATION",   "GIVEWAY_THREADS",
-    "GIVEWAY_VEHICLES",         "GIVEWAY_CHECKPOINT", "GIVEWAY_FAULTS",
-    "GIVEWAY_RECORD",           "GIVEWAY_LOCKSTEP",   "GIVEWAY_LOG_LEVEL",
-    "GIVEWAY_LOG_FORMAT",       "GIVEWAY_CONFIG_DIR", "GIVEWAY_IMPAIR",
-    "GIVEWAY_PARTITION_FREE",   "GIVEWAY_RESUME",     "GIVEWAY_HANG_ON_SIGNAL",
-    "GIVEWAY_NO_WATCHDOG",      "GIVEWAY_STAY",       "GIVEWAY_RECORD_SPLIT",
-    "GIVEWAY_DISCOVERY_SERVER", "GIVEWAY_HEALTH",     "GIVEWAY_HEALTH_PORT",
-    "GIVEWAY_HEALTH_ADDRESS",   "GIVEWAY_RECORD_RING"};
+// What the programs read. Tests hold it against the flags of each: one that is missing here is
+// taken for a misspelt one, and misspellings of it are not noticed.
+constexpr std::array<std::string_view, 49> kOurs = {
+    // of giveway-vehicle and giveway-world, some of fleetctl and of giveway-observer, too
+    "GIVEWAY_SCENARIO",
+    "GIVEWAY_DOMAIN",
+    "GIVEWAY_INTERFACE",
+    "GIVEWAY_DISCOVERY_SERVER",
+    "GIVEWAY_QOS",
+    "GIVEWAY_ID",
+    "GIVEWAY_RECORD",
+    "GIVEWAY_RECORD_SPLIT",
+    "GIVEWAY_RECORD_RING",
+    "GIVEWAY_IMPAIR",
+    "GIVEWAY_IMPAIR_SINCE",
+    "GIVEWAY_STAY",
+    "GIVEWAY_PARTITION_FREE",
+    "GIVEWAY_HANG_ON_SIGNAL",
+    "GIVEWAY_NO_WATCHDOG",
+    "GIVEWAY_THREADS",
+    "GIVEWAY_CHECKPOINT",
+    "GIVEWAY_FAULTS",
+    "GIVEWAY_LEAVE_OUT",
+    "GIVEWAY_TRY_QOS",
+    "GIVEWAY_RESUME",
+    "GIVEWAY_FORMER_QOS",
+    "GIVEWAY_ROLLED_BACK",
+    "GIVEWAY_MEMORY_LOST",
+    "GIVEWAY_GO_ON_FROM",
+    "GIVEWAY_SEED",
+    "GIVEWAY_BEHAVIOUR",
+    "GIVEWAY_DURATION",
+    "GIVEWAY_ADMIN",
+    "GIVEWAY_ADMIN_KEY",
+    "GIVEWAY_LOCKSTEP",
+    "GIVEWAY_HEALTH",
+    "GIVEWAY_HEALTH_PORT",
+    "GIVEWAY_HEALTH_ADDRESS",
+    "GIVEWAY_LOG_FORMAT",
+    "GIVEWAY_LOG_LEVEL",
+    "GIVEWAY_CONFIG_DIR",
+    // of giveway-observer alone
+    "GIVEWAY_AREA",
+    "GIVEWAY_ADDRESS",
+    "GIVEWAY_PORT",
+    "GIVEWAY_FOXGLOVE_PORT",
+    "GIVEWAY_HOST_NAME",
+    "GIVEWAY_ROS2",
+    "GIVEWAY_ROS2_RATE",
+    "GIVEWAY_ROS2_DOMAIN",
+    // of fleetctl alone
+    "GIVEWAY_VEHICLES",
+    "GIVEWAY_RUN_RESTART",
+    "GIVEWAY_RECORD_TOPICS",
+    "GIVEWAY_ATTACKER",
+};
 
-// Letters to change, add or leave out to make one of the other.
-std::size_t Distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, changed});
-    }
+constexpr std::string_view kPrefix = "GIVEWAY_";
+
+// Ours that was probably meant: at most two letters differ, and a third of them, for a short name
+// is near to many a word. Empty: none.
+std::string_view Meant(std::string_view name) {
+  constexpr std::size_t kMost = 2;
+  constexpr std::size_t kOneInSo = 3;
+  std::string_view nearest;
+  std::size_t least = kMost + 1;
+  for (const std::string_view ours : kOurs) {
+    if (name.size() > ours.size() + kMost) continue;  // of any length: the rest takes time
+    const std::size_t distance = EditDistance(name, ours);
+    const std::size_t letters = std::max(name.size(), ours.size()) - kPrefix.size();
+    if (distance >= least || distance * kOneInSo > letters) continue;
+    nearest = ours;
+    least = distance;
   }
-  return row[b.size()];
+  return nearest;
 }
 
 void Add(std::string_view rule, const Place& place, std::string_view what, std::string values,
@@ -80,6 +130,8 @@ void Add(std::string_view rule, const Place& place, std::string_view what, std::
 
 }  // namespace
 
+std::span<const std::string_view> OwnVariables() { return kOurs; }
+
 void CheckVariable(std::string_view name, const Place& place, const std::string& is_set,
                    Findings* findings) {
   for (const Variable& known : kVariables) {
@@ -87,11 +139,10 @@ void CheckVariable(std::string_view name, const Place& place, const std::string&
       Add(known.rule, place, name, is_set, known.consequence, known.remedy, findings);
     }
   }
-  if (!name.starts_with("GIVEWAY_") || std::ranges::find(kOurs, name) != kOurs.end()) return;
-  const auto near =
-      std::ranges::find_if(kOurs, [&](std::string_view ours) { return Distance(name, ours) <= 2; });
-  if (near == kOurs.end()) return;
-  Add("misnamed_variable", place, name, is_set + "; " + std::string(*near) + " is meant?",
+  if (!name.starts_with(kPrefix) || std::ranges::find(kOurs, name) != kOurs.end()) return;
+  const std::string_view meant = Meant(name);
+  if (meant.empty()) return;
+  Add("misnamed_variable", place, name, is_set + "; " + std::string(meant) + " is meant?",
       "No service reads it.", "correct the name", findings);
 }
 

@@ -17,6 +17,8 @@ enum class Severity : std::uint8_t {
 struct Place {
   std::string file;
   int line = 0;  // from 1
+
+  bool operator==(const Place&) const = default;
 };
 
 struct Finding {

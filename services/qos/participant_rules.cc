@@ -104,7 +104,7 @@ void ParticipantRules::CheckDiscovery() {
     Add(Severity::kError, "server_for_all", Policy::kDiscoveryProtocol, "",
         "Every process of the fleet takes this profile, and all would be the same server.",
         "CLIENT here; the server is a process of its own");
-  } else if (protocol != kSimple && participation_.servers == 0) {
+  } else if (protocol != kSimple && participation_.servers.empty()) {
     Add(Severity::kError, "discovery_server_missing", Policy::kDiscoveryProtocol,
         " without a discoveryServersList", "A client without a server finds no participant.",
         "name the server's prefix and address");

@@ -107,11 +107,11 @@ constexpr std::array<PolicyInfo, kPolicyCount> kPolicies = {
     Participants(Policy::kOffset3, "port_offset_3", "rtps/port/offsetd3", Shape::kCount, "", 11),
 };
 
-// Trailing zeros cut: 250 ms, not 250.000 ms.
-std::string Decimal(std::int64_t whole, std::int64_t thousandths) {
-  std::string text = std::to_string(whole);
-  if (thousandths == 0) return text;
-  std::string digits = std::to_string(1000 + thousandths).substr(1);
+// All digits that say something: 250 ms, not 250.000000 ms, and 1.0005 s, not 1 s.
+std::string Decimal(std::int64_t number, std::int64_t unit) {
+  std::string text = std::to_string(number / unit);
+  if (number % unit == 0) return text;
+  std::string digits = std::to_string(unit + number % unit).substr(1);
   digits.erase(digits.find_last_not_of('0') + 1);
   return text + "." + digits;
 }
@@ -142,10 +142,8 @@ std::int64_t Default(Owner owner, const PolicyInfo& info) {
 
 std::string DurationText(std::int64_t nanoseconds) {
   if (nanoseconds == kInfinite) return "infinite";
-  if (nanoseconds >= kSecond) {
-    return Decimal(nanoseconds / kSecond, nanoseconds % kSecond / kMillisecond) + " s";
-  }
-  return Decimal(nanoseconds / kMillisecond, nanoseconds % kMillisecond / 1000) + " ms";
+  return nanoseconds >= kSecond ? Decimal(nanoseconds, kSecond) + " s"
+                                : Decimal(nanoseconds, kMillisecond) + " ms";
 }
 
 std::string Text(Policy policy, std::int64_t value) {

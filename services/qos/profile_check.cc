@@ -23,9 +23,12 @@ void CheckSet(const ProfileSet& set, const Deployment& deployment, Findings* fin
   CheckTransports(set, deployment, findings);
 }
 
-void SortAndCut(std::size_t from, Findings* findings) {
+void SortByLine(std::size_t from, Findings* findings) {
   std::stable_sort(findings->begin() + static_cast<std::ptrdiff_t>(from), findings->end(),
                    [](const Finding& a, const Finding& b) { return a.place.line < b.place.line; });
+}
+
+void Cut(Findings* findings) {
   if (findings->size() <= kMostFindings) return;
   const std::size_t more = findings->size() - kMostFindings;
   // An error among what is cut keeps its weight.
@@ -65,14 +68,15 @@ Findings Check(const std::vector<ProfileFile>& files, const Deployment& deployme
         if (given.file == i) CheckComposeSet(given.service, sets.back(), &findings);
       }
     }
-    SortAndCut(before, &findings);
+    SortByLine(before, &findings);
   }
   for (const ProfileSet& writers : sets) {
     for (const ProfileSet& readers : sets) {
       if (&writers != &readers) CheckPairs(writers, readers, &findings);
+      if (&writers < &readers) CheckFindEachOther(writers, readers, &findings);
     }
   }
-  SortAndCut(findings.size(), &findings);
+  Cut(&findings);
   return findings;
 }
 

@@ -214,4 +214,18 @@ EditedProfiles Edit(std::string bytes, const std::string& file,
   return {std::move(bytes), {}};
 }
 
+std::string WithComment(std::string bytes, std::string comment) {
+  // Two hyphens would end it.
+  for (std::size_t at = 0; (at = comment.find("--", at)) != std::string::npos;) {
+    comment.replace(at, 2, "-");
+  }
+  constexpr std::string_view kBlanksAndMark = " \t\r\n\xEF\xBB\xBF";
+  constexpr std::string_view kDeclaration = "<?xml";
+  const std::size_t first = std::min(bytes.find_first_not_of(kBlanksAndMark), bytes.size());
+  const bool declares = bytes.compare(first, kDeclaration.size(), kDeclaration) == 0;
+  const std::size_t at = declares ? EndOfOther(bytes, first) : first;
+  bytes.insert(at, (declares ? "\n" : "") + ("<!-- " + comment + " -->") + (declares ? "" : "\n"));
+  return bytes;
+}
+
 }  // namespace giveway::qos

@@ -27,4 +27,8 @@ struct EditedProfiles {
 EditedProfiles Edit(std::string bytes, const std::string& file,
                     const std::vector<ProfileEdit>& edits);
 
+// The text with a comment at its top: behind the declaration, if there is one, for nothing but a
+// byte order mark or blanks may stand before that.
+std::string WithComment(std::string bytes, std::string comment);
+
 }  // namespace giveway::qos

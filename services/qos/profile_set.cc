@@ -56,6 +56,7 @@ class Reader {
   void ReadTransport(const XmlElement& descriptor);
   Profile ReadProfile(const XmlElement& element, Owner owner) const;
   Participation ReadParticipation(const XmlElement& element) const;
+  DiscoveryServer ReadServer(const XmlElement& element) const;
   void ReadDiscovery(const XmlElement& rtps, Participation* to) const;
 
   const XmlElement& root_;
@@ -95,6 +96,21 @@ Profile Reader::ReadProfile(const XmlElement& element, Owner owner) const {
   return profile;
 }
 
+DiscoveryServer Reader::ReadServer(const XmlElement& element) const {
+  DiscoveryServer server{element.Attribute("prefix"), "", At(element)};
+  const XmlElement* const locators = element.Child("metatrafficUnicastLocatorList");
+  if (locators == nullptr) return server;
+  for (const XmlElement& locator : locators->children) {
+    for (const XmlElement& by_transport : locator.children) {
+      const XmlElement* const address = by_transport.Child("address");
+      const XmlElement* const port = by_transport.Child("port");
+      if (address == nullptr || port == nullptr) continue;
+      server.address += (server.address.empty() ? "" : " ") + address->text + ":" + port->text;
+    }
+  }
+  return server;
+}
+
 void Reader::ReadDiscovery(const XmlElement& rtps, Participation* to) const {
   const XmlElement* config = rtps.Descendant("builtin/discovery_config");
   if (config == nullptr) return;
@@ -103,7 +119,7 @@ void Reader::ReadDiscovery(const XmlElement& rtps, Participation* to) const {
     to->ignore_place = At(*flags);
   }
   if (const auto* servers = config->Child("discoveryServersList")) {
-    to->servers = servers->children.size();
+    for (const XmlElement& server : servers->children) to->servers.push_back(ReadServer(server));
   }
   if (const auto* edp = config->Child("EDP"); edp != nullptr && edp->text == "STATIC") {
     to->static_discovery = true;

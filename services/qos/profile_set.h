@@ -19,6 +19,8 @@ struct Value {
   std::int64_t number = 0;
   Place place;         // line 0: the file does not say
   bool given = false;  // by the file; else the library's default
+
+  bool operator==(const Value&) const = default;
 };
 
 struct Profile {
@@ -29,6 +31,7 @@ struct Profile {
   std::vector<std::string> partitions;     // as the profile says; code sets the real ones
   Place partition_place;
 
+  bool operator==(const Profile&) const = default;
   const Value& operator[](Policy policy) const { return values[Index(policy)]; }
   std::int64_t Number(Policy policy) const { return values[Index(policy)].number; }
 };
@@ -41,6 +44,16 @@ struct Transport {
   std::string type;  // "UDPv4", "SHM", ...
   Place place;
   std::map<std::string, Value> numbers;  // by element name, where the file says
+
+  bool operator==(const Transport&) const = default;
+};
+
+struct DiscoveryServer {
+  std::string prefix;   // as written; what clients know it by
+  std::string address;  // "10.0.0.1:11811", or several
+  Place place;
+
+  bool operator==(const DiscoveryServer&) const = default;
 };
 
 // What of a participant is no single number.
@@ -49,13 +62,15 @@ struct Participation {
   std::vector<std::pair<std::string, Place>> transports;  // ids it names
   std::string ignore_flags;
   Place ignore_place;
-  std::size_t servers = 0;
+  std::vector<DiscoveryServer> servers;
   std::string prefix;
   bool static_discovery = false;
   Place static_place;
   std::size_t peers_without_port = 0;
   Place peers_place;
   std::map<std::string, Place> limits;  // elements that slow it down, or that code overrides
+
+  bool operator==(const Participation&) const = default;
 };
 
 // Of world, vehicles and observers alike.
@@ -69,6 +84,7 @@ struct ProfileSet {
   std::string intraprocess = "FULL";          // the library's default
   Place intraprocess_place;
 
+  bool operator==(const ProfileSet&) const = default;
   // Null if there is none.
   const Profile* Find(Owner owner, std::string_view name) const;
   const Transport* FindTransport(std::string_view id) const;

@@ -1,6 +1,8 @@
 #include "services/qos/rollout.h"
 
 #include <algorithm>
+#include <map>
+#include <tuple>
 
 #include "services/qos/deployment.h"
 #include "services/qos/profile_edit.h"
@@ -19,27 +21,10 @@ ProfileSet Own(const ProfileSet& set, Role role, Owner owner) {
   return own;
 }
 
-// Two processes find each other only by the same protocol at the same ports.
-void CheckDiscovery(const ProfileSet& a, const ProfileSet& b, Findings* findings) {
-  const Profile* const one = a.Find(Owner::kParticipant, kParticipantProfile);
-  const Profile* const other = b.Find(Owner::kParticipant, kParticipantProfile);
-  if (one == nullptr || other == nullptr) return;
-  for (const Policy policy : {Policy::kDiscoveryProtocol, Policy::kPortBase, Policy::kDomainGain,
-                              Policy::kParticipantGain, Policy::kOffset0, Policy::kOffset1,
-                              Policy::kOffset2, Policy::kOffset3}) {
-    if (one->Number(policy) == other->Number(policy)) continue;
-    findings->push_back({Severity::kError, "discovery_mismatch", PlaceOf(*one, policy), one->name,
-                         std::string(Info(policy).name) + " " + StatedValue(*one, policy) +
-                             ", and " + StatedValue(*other, policy),
-                         "The two no longer find each other, nor does an operator find both.",
-                         "start the processes again with the new set, all at once"});
-  }
-}
-
 // What does not match between two processes with these sets, either way.
 Findings Mismatches(Role a, const ProfileSet& set_a, Role b, const ProfileSet& set_b) {
   Findings findings;
-  CheckDiscovery(set_a, set_b, &findings);
+  CheckFindEachOther(set_a, set_b, &findings);
   CheckPairs(Own(set_a, a, Owner::kWriter), Own(set_b, b, Owner::kReader), &findings);
   CheckPairs(Own(set_b, b, Owner::kWriter), Own(set_a, a, Owner::kReader), &findings);
   std::erase_if(findings,
@@ -78,13 +63,38 @@ std::string BetweenText(const std::vector<RolloutProcess>& processes, const Prof
   return Edit(text, wanted.file, edits).bytes;
 }
 
+// What does not match, of the few different sets that a fleet has: each pair is held against each
+// other once, however many processes have the two.
+class MatchTable {
+ public:
+  // The number of a set, which must outlive this; equal ones have one.
+  std::size_t NumberOf(const ProfileSet& set) {
+    const auto known = std::ranges::find_if(sets_, [&](const auto* one) { return *one == set; });
+    if (known != sets_.end()) return static_cast<std::size_t>(known - sets_.begin());
+    sets_.push_back(&set);
+    return sets_.size() - 1;
+  }
+  const Findings& Of(Role a, std::size_t set_a, Role b, std::size_t set_b) {
+    const auto [found, is_new] = found_.try_emplace({a, set_a, b, set_b});
+    if (is_new) found->second = Mismatches(a, *sets_[set_a], b, *sets_[set_b]);
+    return found->second;
+  }
+
+ private:
+  std::vector<const ProfileSet*> sets_;
+  std::map<std::tuple<Role, std::size_t, Role, std::size_t>, Findings> found_;
+};
+
 class Planner {
  public:
   Planner(const std::vector<RolloutProcess>& processes, const ProfileSet& wanted,
           const ProfileSet& between, std::optional<std::size_t> first)
-      : processes_(processes), wanted_(wanted), between_(between), first_(first) {
+      : processes_(processes),
+        wanted_(table_.NumberOf(wanted)),
+        between_(table_.NumberOf(between)),
+        first_(first) {
     for (const RolloutProcess& process : processes) {
-      now_.push_back(&process.set);
+      now_.push_back(table_.NumberOf(process.set));
       done_.push_back(!process.moves);
     }
   }
@@ -98,35 +108,44 @@ class Planner {
   }
   const std::vector<RolloutStep>& Steps() const { return steps_; }
   // Why the first process that is not done cannot take the wanted set.
-  Findings WhyNot() const {
-    for (std::size_t i = 0; i < processes_.size(); ++i) {
-      if (!done_[i]) return MismatchesOf(i, wanted_);
-    }
-    return {};
-  }
-
- private:
-  // With all others as they are now. What does not match now already is none of ours.
-  Findings MismatchesOf(std::size_t process, const ProfileSet& set) const {
-    const Role role = processes_[process].role;
+  Findings WhyNot() {
     Findings all;
+    const auto blocked = std::ranges::find(done_, false);
+    if (blocked == done_.end()) return all;
+    const auto process = static_cast<std::size_t>(blocked - done_.begin());
     for (std::size_t i = 0; i < processes_.size(); ++i) {
-      if (i == process) continue;
-      const Role other = processes_[i].role;
-      if (!Mismatches(role, *now_[process], other, *now_[i]).empty()) continue;
-      for (Finding& finding : Mismatches(role, set, other, *now_[i])) {
+      for (Finding finding : MismatchesOf(process, i, wanted_)) {
         finding.subject += " (" + processes_[process].name + " and " + processes_[i].name + ")";
         all.push_back(std::move(finding));
       }
     }
     return all;
   }
+
+ private:
+  // What would not match between the two. What does not match now already is none of ours.
+  const Findings& MismatchesOf(std::size_t process, std::size_t other, std::size_t set) {
+    static const Findings kNone;
+    const Role role = processes_[process].role;
+    const Role role_of_other = processes_[other].role;
+    if (process == other || !table_.Of(role, now_[process], role_of_other, now_[other]).empty()) {
+      return kNone;
+    }
+    return table_.Of(role, set, role_of_other, now_[other]);
+  }
+  // With all others as they are now.
+  bool MayTake(std::size_t process, std::size_t set) {
+    for (std::size_t i = 0; i < processes_.size(); ++i) {
+      if (!MismatchesOf(process, i, set).empty()) return false;
+    }
+    return true;
+  }
   bool StepToWanted() {
     for (std::size_t i = 0; i < processes_.size(); ++i) {
       const bool waits =
           first_ && !done_[*first_] && i != *first_ && processes_[i].role == Role::kVehicle;
-      if (done_[i] || waits || !MismatchesOf(i, wanted_).empty()) continue;
-      now_[i] = &wanted_;
+      if (done_[i] || waits || !MayTake(i, wanted_)) continue;
+      now_[i] = wanted_;
       done_[i] = true;
       steps_.push_back({i, false});
       return true;
@@ -135,19 +154,20 @@ class Planner {
   }
   bool StepBetween() {
     for (std::size_t i = 0; i < processes_.size(); ++i) {
-      if (done_[i] || now_[i] == &between_ || !MismatchesOf(i, between_).empty()) continue;
-      now_[i] = &between_;
+      if (done_[i] || now_[i] == between_ || !MayTake(i, between_)) continue;
+      now_[i] = between_;
       steps_.push_back({i, true});
       return true;
     }
     return false;
   }
 
+  MatchTable table_;
   const std::vector<RolloutProcess>& processes_;
-  const ProfileSet& wanted_;
-  const ProfileSet& between_;
+  const std::size_t wanted_;  // its number in the table, as of the next two
+  const std::size_t between_;
   const std::optional<std::size_t> first_;
-  std::vector<const ProfileSet*> now_;
+  std::vector<std::size_t> now_;
   std::vector<bool> done_;
   std::vector<RolloutStep> steps_;
 };

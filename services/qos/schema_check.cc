@@ -122,6 +122,10 @@ void Checker::CheckDuration(const XmlElement& element) {
     Add("wrong_value", element, "is not a duration",
         "write <sec> from 0 to 2147483647 and <nanosec> from 0 to 999999999, or DURATION_INFINITY");
   }
+  if (!element.children.empty() && IsInfinite(element.text)) {
+    Add("wrong_value", element, Quoted(element.text) + " and parts of a duration",
+        "write one of the two");
+  }
   const bool is_infinite = ReadDuration(element) == kInfinite;
   std::set<std::string_view> seen;
   for (const XmlElement& child : element.children) {

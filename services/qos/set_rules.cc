@@ -1,4 +1,6 @@
-// A profile set as a whole, and its writers against its readers.
+// A profile set as a whole, its writers against its readers, and two sets: whether processes with
+// one discover those with the other, by the same protocol at the same ports, and of clients a
+// server in common.
 #include <algorithm>
 #include <set>
 
@@ -120,6 +122,54 @@ void AddMismatch(const Profile& writer, const Profile& reader, const MatchRule& 
        "change one of the two: " + std::string(rule.rule)});
 }
 
+constexpr char kApart[] =
+    "Processes with one set do not find those with the other, nor does an operator find both.";
+constexpr char kTogether[] =
+    "the same in both; in a fleet that drives, start all processes again at once";
+
+bool IsClient(const Profile& participant) {
+  const std::int64_t protocol = participant.Number(Policy::kDiscoveryProtocol);
+  return protocol == kClient || protocol == kSuperClient;
+}
+
+void CheckSame(const Profile& one, const Profile& other, Policy policy, Findings* findings) {
+  if (one.Number(policy) == other.Number(policy)) return;
+  findings->push_back({Severity::kError, "discovery_mismatch", PlaceOf(one, policy), one.name,
+                       std::string(Info(policy).name) + " " + StatedValue(one, policy) + ", and " +
+                           StatedValue(other, policy) + " in " + other.place.file,
+                       kApart, kTogether});
+}
+
+// Clients know a server by its prefix. Two addresses may reach one, or two that chose one prefix.
+void CheckServers(const ProfileSet& a, const ProfileSet& b, Findings* findings) {
+  const Participation* const one = a.OurParticipation();
+  const Participation* const other = b.OurParticipation();
+  if (one == nullptr || other == nullptr || one->servers.empty() || other->servers.empty()) return;
+  const DiscoveryServer* shown = &one->servers.front();
+  const DiscoveryServer* against = &other->servers.front();
+  bool one_prefix = false;
+  for (const DiscoveryServer& server : one->servers) {
+    for (const DiscoveryServer& theirs : other->servers) {
+      if (server.prefix != theirs.prefix) continue;
+      if (server.address == theirs.address) return;
+      one_prefix = true;
+      shown = &server;
+      against = &theirs;
+    }
+  }
+  const auto words = [](const DiscoveryServer& server) {
+    return "RemoteServer " + server.prefix + " at " + server.address + " (line " +
+           std::to_string(server.place.line) + ")";
+  };
+  findings->push_back({one_prefix ? Severity::kWarning : Severity::kError,
+                       one_prefix ? "discovery_address" : "discovery_mismatch", shown->place,
+                       one->profile, words(*shown) + ", and " + words(*against) + " in " + b.file,
+                       one_prefix ? "Where the two addresses are two servers, processes with one "
+                                    "set do not find those with the other."
+                                  : kApart,
+                       kTogether});
+}
+
 }  // namespace
 
 std::string StatedValue(const Profile& profile, Policy policy) {
@@ -144,6 +194,22 @@ void CheckPairs(const ProfileSet& writers, const ProfileSet& readers, Findings* 
     for (const MatchRule* rule : Broken(writer, *reader)) {
       AddMismatch(writer, *reader, *rule, findings);
     }
+  }
+}
+
+void CheckFindEachOther(const ProfileSet& a, const ProfileSet& b, Findings* findings) {
+  const Profile* const one = a.Find(Owner::kParticipant, kParticipantProfile);
+  const Profile* const other = b.Find(Owner::kParticipant, kParticipantProfile);
+  if (one == nullptr || other == nullptr) return;
+  if (IsClient(*one) && IsClient(*other)) {
+    CheckServers(a, b, findings);
+  } else {
+    CheckSame(*one, *other, Policy::kDiscoveryProtocol, findings);
+  }
+  for (const Policy policy :
+       {Policy::kPortBase, Policy::kDomainGain, Policy::kParticipantGain, Policy::kOffset0,
+        Policy::kOffset1, Policy::kOffset2, Policy::kOffset3}) {
+    CheckSame(*one, *other, policy, findings);
   }
 }
 

@@ -12,8 +12,9 @@ constexpr std::int64_t kUdpMessage = 65'500;   // the library's default maxMessa
 constexpr std::int64_t kLargestBuffer = 0x7fff'ffff;
 constexpr char kNoParticipant[] =
     "The library makes no participant, and the service does not start.";
-constexpr std::int64_t kShmQueue = 512;    // its default port_queue_capacity
-constexpr std::int64_t kSamplesATick = 3;  // beacon, ranges and command of a vehicle
+constexpr std::int64_t kShmQueue = 512;           // its default port_queue_capacity
+constexpr std::int64_t kShmSegment = 512 * 1024;  // what it takes for a segment_size of 0, or none
+constexpr std::int64_t kSamplesATick = 3;         // beacon, ranges and command of a vehicle
 
 class TransportRules {
  public:
@@ -152,10 +153,13 @@ void TransportRules::CheckSharedMemory(const Transport& transport) {
   const auto message = transport.numbers.find("maxMessageSize");
   const std::int64_t most =
       message == transport.numbers.end() ? kUdpMessage : message->second.number;
-  if (segment != transport.numbers.end() && segment->second.number < most) {
-    Add(Severity::kError, "segment_too_small", segment->second.place, transport.id,
-        "segment_size " + std::to_string(segment->second.number) + " against maxMessageSize " +
-            std::to_string(most),
+  const bool said = segment != transport.numbers.end() && segment->second.number != 0;
+  const std::int64_t size = said ? segment->second.number : kShmSegment;
+  if (size < most) {
+    Add(Severity::kError, "segment_too_small", said ? segment->second.place : message->second.place,
+        transport.id,
+        "segment_size " + std::to_string(size) + (said ? "" : " (library default)") +
+            " against maxMessageSize " + std::to_string(most),
         "The library refuses the transport, and the service does not start.",
         "a segment of several messages");
   }

@@ -86,10 +86,8 @@ std::optional<std::int64_t> ReadDuration(const XmlElement& element) {
     if (!number) return std::nullopt;
     (whole ? seconds : nanoseconds) = number->value;
   }
-  if (seconds == kInfiniteSeconds &&
-      (nanoseconds < kSecond || nanoseconds == kInfiniteNanoseconds)) {
-    return kInfinite;
-  }
+  // To the library 2147483647 s alone is a time, and less than infinite.
+  if (seconds == kInfiniteSeconds && nanoseconds == kInfiniteNanoseconds) return kInfinite;
   if (seconds < 0 || nanoseconds >= kSecond) return std::nullopt;
   return seconds * kSecond + nanoseconds;
 }

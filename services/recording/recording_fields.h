@@ -91,10 +91,10 @@ void Visit(auto& fields, Is<OneLane> auto& lane) {
 void Visit(auto& fields, Is<VehicleOptions> auto& options) {
   auto& [id, behaviour, profile, cruise, goal, route, start, braitenberg, tick_period, gate_enter,
          gate_exit, metric, emission_radius, beacon_age_limit, ranges_age_limit, sonar_refresh,
-         sonar_noise, ageing_limit, one_lanes] = options;
+         sonar_noise, ageing_limit, one_lanes, silent_body_stays] = options;
   fields(id, behaviour, profile, cruise, goal, route, start, braitenberg, tick_period, gate_enter,
          gate_exit, metric, emission_radius, beacon_age_limit, ranges_age_limit, sonar_refresh,
-         sonar_noise, ageing_limit, one_lanes);
+         sonar_noise, ageing_limit, one_lanes, silent_body_stays);
 }
 
 void Visit(auto& fields, Is<PriorityKey> auto& key) {

@@ -169,6 +169,9 @@ class Decoder {
   template <typename T>
   void GetPlain(const pb::FieldDescriptor& field, T* value, int index) {
     using R = pb::Reflection;
+    // Of an older recording, from before there was such a field: the value is what it was then.
+    const bool optional = index == kSingle && field.has_optional_keyword();
+    if (optional && !reflection_.HasField(message_, &field)) return;
     if constexpr (std::is_same_v<T, double>) {
       *value = Call(field, index, &R::GetRepeatedDouble, &R::GetDouble);
     } else if constexpr (std::is_same_v<T, bool>) {

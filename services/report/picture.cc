@@ -240,34 +240,39 @@ WorldBox BoxOf(const Scenario& scenario, const std::vector<Track>& tracks) {
   return box;
 }
 
-const WorldEvent* Last(const std::vector<WorldEvent>& events, EventKind kind) {
-  const auto found = std::find_if(events.rbegin(), events.rend(),
-                                  [kind](const WorldEvent& e) { return e.kind == kind; });
-  return found == events.rend() ? nullptr : &*found;
+struct Badge {
+  std::string word;
+  const char* colour;
+};
+
+Badge BadgeOf(const std::optional<Headline>& headline) {
+  if (!headline) return {"no verdict", "#777"};
+  if (headline->verdict == Verdict::kNotRun) return {"not run", "#777"};
+  if (headline->verdict == Verdict::kPassed) return {"passed", "#1a7f37"};
+  return {"failed", "#c00000"};
 }
 
-void DrawHeader(Canvas* canvas, const Scenario& scenario, const std::vector<WorldEvent>& events) {
+void DrawHeader(Canvas* canvas, const Scenario& scenario, const std::optional<Headline>& headline) {
   const Pixel corner = canvas->TopLeft();
   canvas->Text({corner.x, 34}, Shortened(scenario.name, 48), "class=\"title\"");
-  const WorldEvent* verdict = Last(events, EventKind::kVerdict);
-  const bool passed = verdict != nullptr && verdict->value == 1;
-  const std::string word = verdict == nullptr ? "no verdict" : passed ? "passed" : "failed";
-  const char* colour = verdict == nullptr ? "#777" : passed ? "#1a7f37" : "#c00000";
+  const auto [word, colour] = BadgeOf(headline);
   const double width = 26 + 9.0 * static_cast<double>(word.size());
   const double left = canvas->BottomRight().x - width;
   canvas->Rectangle({left, 15}, width, 26, fmt::format("rx=\"13\" fill=\"{}\"", colour));
   canvas->Text({left + width / 2, 33}, word,
                "class=\"middle\" style=\"fill:#fff;font-weight:600;font-size:14px\"");
-  std::string below = verdict == nullptr ? "" : verdict->text;
+  const bool passed = headline && headline->verdict == Verdict::kPassed;
+  std::string below = headline && !passed ? headline->reason : "";
   std::replace(below.begin(), below.end(), '_', ' ');
-  if (below.empty() || passed) below = scenario.description;
+  if (below.empty()) below = scenario.description;
   canvas->Text({corner.x, 60}, Shortened(below, 128), "class=\"quiet\"");
 }
 
 }  // namespace
 
 std::string DrawRun(const Scenario& written, const std::vector<Track>& tracks,
-                    const std::vector<WorldEvent>& all_events) {
+                    const std::vector<WorldEvent>& all_events,
+                    const std::optional<Headline>& headline) {
   const Scenario scenario = WithJoined(written, tracks);
   std::vector<WorldEvent> events = all_events;
   std::erase_if(events, [](const WorldEvent& e) { return !std::isfinite(e.time_s); });
@@ -284,7 +289,7 @@ std::string DrawRun(const Scenario& written, const std::vector<Track>& tracks,
   DrawHalts(&canvas, scenario, tracks, events);
   DrawDeaths(&canvas, scenario, tracks, events);
   DrawContacts(&canvas, events);
-  DrawHeader(&canvas, scenario, events);
+  DrawHeader(&canvas, scenario, headline);
   DrawLegend(&canvas, scenario);
   return canvas.Svg(scenario.name);
 }

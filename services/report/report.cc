@@ -68,10 +68,10 @@ schema::Report ToSchema(const Report& report) {
   if (const auto clear_s = Printed(report.time_to_clear_s)) message.set_time_to_clear_s(*clear_s);
   for (const VehicleId id : report.halted) message.add_halted(Number(id));
   for (const VehicleId id : report.arrived) message.add_arrived(Number(id));
-  message.set_beacons_sent(report.beacons_sent);
-  message.set_beacons_received(report.beacons_received);
-  message.set_deadline_missed(report.deadline_missed);
-  message.set_liveliness_lost(report.liveliness_lost);
+  message.set_beacons_sent(static_cast<double>(report.beacons_sent));
+  message.set_beacons_received(static_cast<double>(report.beacons_received));
+  message.set_deadline_missed(static_cast<double>(report.deadline_missed));
+  message.set_liveliness_lost(static_cast<double>(report.liveliness_lost));
   SetTrust(report.trust, message.mutable_trust());
   SetReaction(report, &message);
   message.set_tick_overruns(report.tick_overruns);

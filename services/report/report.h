@@ -39,10 +39,10 @@ struct Report {
   std::optional<double> time_to_clear_s;
   std::vector<VehicleId> halted;
   std::vector<VehicleId> arrived;
-  std::uint32_t beacons_sent = 0;
-  std::uint32_t beacons_received = 0;
-  std::uint32_t deadline_missed = 0;
-  std::uint32_t liveliness_lost = 0;
+  std::uint64_t beacons_sent = 0;
+  std::uint64_t beacons_received = 0;
+  std::uint64_t deadline_missed = 0;
+  std::uint64_t liveliness_lost = 0;
   TrustCounters trust;  // of all vehicles
   std::optional<double> reaction_p50_ms;
   std::optional<double> reaction_p99_ms;

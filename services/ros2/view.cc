@@ -104,7 +104,9 @@ void View::AddTransforms(Batch* batch) const {
 }
 
 void View::AddMarkers(std::uint64_t now_ns, Batch* batch) const {
-  constexpr auto kLifetime_s = static_cast<std::int32_t>(kGoneAfter_ns / 1'000'000'000);
+  // Longer than until the next one, however slow the rate.
+  const std::uint64_t lifetime_ns = std::max(kGoneAfter_ns, 2 * period_ns_);
+  const auto lifetime_s = static_cast<std::int32_t>((lifetime_ns + 999'999'999) / 1'000'000'000);
   Markers all;
   std::uint64_t newest_ns = 0;
   for (const VehicleId id : batch->gone) all.markers.push_back(RemovedMarker(id, now_ns));
@@ -113,7 +115,7 @@ void View::AddMarkers(std::uint64_t now_ns, Batch* batch) const {
     if (!vehicle.beacon) continue;
     const auto& [beacon, stamp_ns] = *vehicle.beacon;
     const bool silent = Between(vehicle.beacon_received_ns, now_ns) > kSilentAfter_ns;
-    all.markers.push_back(BodyMarker(beacon, stamp_ns, silent, kLifetime_s));
+    all.markers.push_back(BodyMarker(beacon, stamp_ns, silent, lifetime_s));
     newest_ns = std::max(newest_ns, stamp_ns);
   }
   if (!all.markers.empty()) {

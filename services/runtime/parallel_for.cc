@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -40,7 +41,13 @@ T AwaitChange(const std::atomic<T>& value, T old) {
 class ParallelPool::Workers {
  public:
   explicit Workers(unsigned count) {
-    for (unsigned i = 0; i < count; ++i) threads_.emplace_back([this] { Work(); });
+    threads_.reserve(count);
+    try {
+      while (threads_.size() < count) threads_.emplace_back([this] { Work(); });
+    } catch (const std::system_error&) {
+      // Who calls Run works too: with fewer, or none, it takes longer, and the results are the
+      // same.
+    }
   }
   ~Workers() {
     stop_.store(true, std::memory_order_relaxed);

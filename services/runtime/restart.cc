@@ -15,12 +15,23 @@
 #include <system_error>
 
 #include "services/runtime/hang_signal.h"
+#include "services/runtime/process.h"
 
 namespace giveway {
 namespace {
 
 constexpr std::string_view kHeldFolder = "/proc/self/fd/";
 constexpr std::size_t kMostNameBytes = 200;  // the kernel takes 249
+
+std::vector<std::string> ReadOwnArguments() {
+  std::ifstream stream("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> arguments;
+  for (std::string word; std::getline(stream, word, '\0');) arguments.push_back(word);
+  return arguments;
+}
+
+// Read before main: a process that has no descriptor left could not, and would restart with none.
+const std::vector<std::string> own_arguments = ReadOwnArguments();
 
 [[noreturn]] void ThrowErrno(const char* what) {
   throw std::system_error(errno, std::generic_category(), what);
@@ -39,11 +50,16 @@ std::string PathOf(int descriptor) { return std::string(kHeldFolder) + std::to_s
 
 int MakeHeld(const std::string& name, const std::string& text) {
   const int descriptor = memfd_create(name.substr(0, kMostNameBytes).c_str(), 0);
-  if (descriptor < 0) ThrowErrno("no memory for the profiles");
+  if (descriptor < 0) ThrowErrno("cannot hold a text in memory");
   std::ofstream stream(PathOf(descriptor), std::ios::binary);
   stream << text;
   stream.close();
-  if (!stream) ThrowErrno("no memory for the profiles");
+  if (!stream) {
+    const int why = errno;
+    close(descriptor);  // it would stay open in each process image to come
+    errno = why;
+    ThrowErrno("cannot hold a text in memory");
+  }
   return descriptor;
 }
 
@@ -67,12 +83,7 @@ std::vector<OpenDescriptor> OpenDescriptors() {
 
 }  // namespace
 
-std::vector<std::string> OwnArguments() {
-  std::ifstream stream("/proc/self/cmdline", std::ios::binary);
-  std::vector<std::string> arguments;
-  for (std::string word; std::getline(stream, word, '\0');) arguments.push_back(word);
-  return arguments;
-}
+std::vector<std::string> OwnArguments() { return own_arguments; }
 
 std::vector<std::string> ArgumentsWith(const std::vector<std::string>& arguments,
                                        const NewFlags& flags) {
@@ -132,6 +143,17 @@ std::string HoldText(const std::string& name, const std::string& text) {
   return PathOf(MakeHeld(name, text));
 }
 
+bool HoldTextFor(const std::string& flag, const std::string& name, const std::string& text,
+                 NewFlags* flags) {
+  try {
+    (*flags)[flag] = HoldText(name, text);
+    return true;
+  } catch (const std::system_error& error) {
+    LogWarning("restarts itself without a new " + flag + ": " + error.what());
+    return false;
+  }
+}
+
 HeldText::HeldText(const std::string& name, const std::string& text)
     : descriptor_(MakeHeld(name, text)) {}
 
@@ -155,6 +177,11 @@ std::string NameOf(const std::string& path) {
 void LetGo(const std::string& path) {
   const int descriptor = HeldDescriptor(path);
   if (descriptor >= 0) fcntl(descriptor, F_SETFD, FD_CLOEXEC);
+}
+
+void HoldAgain(const std::string& path) {
+  const int descriptor = HeldDescriptor(path);
+  if (descriptor >= 0) fcntl(descriptor, F_SETFD, 0);
 }
 
 }  // namespace giveway

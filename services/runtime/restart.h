@@ -16,7 +16,7 @@ using NewFlags = std::map<std::string, std::string>;
 std::vector<std::string> ArgumentsWith(const std::vector<std::string>& arguments,
                                        const NewFlags& flags);
 
-// The command line that this process was started with.
+// The command line that this process was started with. Needs no descriptor.
 std::vector<std::string> OwnArguments();
 
 // From now on a stop signal waits for the next process image instead of being forgotten by it. What
@@ -48,9 +48,16 @@ class HeldText {
 // The name is cut to what the system takes. Keeps a text in memory under a path that a restarted
 // process still finds; a container's file system may be read-only. Throws std::system_error.
 std::string HoldText(const std::string& name, const std::string& text);
+// Holds a text for the next process image, which finds its path in this flag. Where no descriptor
+// or memory is left that is logged, false is returned and `flags` stay as they are: if the flag is
+// not among them, what the command line says of it holds.
+bool HoldTextFor(const std::string& flag, const std::string& name, const std::string& text,
+                 NewFlags* flags);
 // The file's name, for people; of a held text the name it was given.
 std::string NameOf(const std::string& path);
 // A held text that has been read goes with this process image; any other path is left alone.
 void LetGo(const std::string& path);
+// The next process image reads it again after all, from the same path.
+void HoldAgain(const std::string& path);
 
 }  // namespace giveway

@@ -47,12 +47,14 @@ void OnStop(int signal_number) {
 // The time to leave is over: the library hangs, or the loop does.
 void OnTimeOver(int /*signal_number*/) { EndNow(asked_by); }
 
-const std::array<Handled, 5> kHandled{{{SIGINT, OnStop},
+// A parent may have ignored SIGCHLD, which survives exec: then no child could be waited for.
+const std::array<Handled, 6> kHandled{{{SIGINT, OnStop},
                                        {SIGTERM, OnStop},
                                        {SIGALRM, OnTimeOver},
                                        {SIGPIPE, SIG_IGN},
-                                       {SIGXFSZ, SIG_IGN}}};
-std::array<struct sigaction, 5> before;
+                                       {SIGXFSZ, SIG_IGN},
+                                       {SIGCHLD, SIG_DFL}}};
+std::array<struct sigaction, kHandled.size()> before;
 
 // A process that restarted itself held its signals back until now.
 void LetPass() {

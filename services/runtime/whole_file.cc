@@ -36,8 +36,10 @@ class Beside {
  public:
   Beside(std::string name, int descriptor) : name_(std::move(name)), descriptor_(descriptor) {}
   ~Beside() {
+    const int why = errno;  // of what failed before
     if (descriptor_ >= 0) ::close(descriptor_);
     if (!name_.empty()) ::unlink(name_.c_str());
+    errno = why;
   }
   Beside(const Beside&) = delete;
   Beside& operator=(const Beside&) = delete;
@@ -96,14 +98,30 @@ std::string Followed(const std::string& path) {
   return error ? path : there.string();
 }
 
-// Also a regular file that is reached through a descriptor, as /dev/stdout is.
-bool IsSpecial(const std::string& path) {
-  if (path.starts_with("/dev/") || path.starts_with("/proc/")) return true;
-  struct stat there {};
-  return ::stat(path.c_str(), &there) == 0 && !S_ISREG(there.st_mode);
+// Whether a name leads through a descriptor of a process, as /dev/stdout and /dev/fd/3 do. What is
+// there is open already: another file in its place would not be the one that is open.
+bool IsThroughDescriptor(fs::path path) {
+  constexpr int kMostLinks = 40;  // that the kernel follows
+  std::error_code error;
+  for (int i = 0; i < kMostLinks; ++i) {
+    const fs::path folder = fs::canonical(path.has_parent_path() ? path.parent_path() : ".", error);
+    if (error) return false;
+    if (folder.string().starts_with("/proc/") && folder.filename() == "fd") return true;
+    const fs::path to = fs::read_symlink(path, error);
+    if (error) return false;  // no link
+    path = folder / to;
+  }
+  return false;
 }
 
-// Of a device or a pipe; nothing for any other file. Without bytes it is only opened.
+// Also a regular file that is reached through a descriptor. What is a file in /dev/shm is one.
+bool IsSpecial(const std::string& path) {
+  struct stat there {};
+  const bool is_there = ::stat(path.c_str(), &there) == 0;
+  return (is_there && !S_ISREG(there.st_mode)) || IsThroughDescriptor(path);
+}
+
+// Of a device, a pipe or an open file; nothing for any other file. Without bytes it is only opened.
 std::optional<std::string> WriteSpecial(const std::string& path, std::string_view bytes) {
   if (!IsSpecial(path)) return std::nullopt;
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);

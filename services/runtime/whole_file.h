@@ -14,13 +14,16 @@ namespace giveway {
 // process in /proc that ended meanwhile.
 std::optional<std::string> ReadWholeFile(const std::filesystem::path& path);
 
+// These three: empty, or why not, and then errno is that of the failure.
+//
 // Empty if it is written, else why not. For the state of a process: what is at `path` is replaced,
 // a symbolic link itself and not the file it leads to. It survives the death of the process at any
 // moment, and does not wait for the disk.
 std::string WriteStateFile(const std::string& path, std::string_view bytes);
 
 // The same for a file that was asked for by name: a link is followed, and what is no regular file
-// (/dev/stdout, a pipe) is written to as it is. Waits for the disk.
+// (a device, a pipe) or is reached through a descriptor (/dev/stdout, /dev/fd/3) is written to as
+// it is. Waits for the disk.
 std::string WriteOutputFile(const std::string& path, std::string_view bytes);
 
 // Empty if WriteOutputFile could start now, else why not. Leaves no file behind.

@@ -42,7 +42,7 @@ enum class Rule : std::uint8_t {
   kAvoid,               // Braitenberg weights steer away
   kSignal,              // a fresh traffic light on the own path says stop
   kKeepClear,           // no further than where a peer cannot be, whatever it does
-  kMakeRoom,            // turning aside for one that comes first and cannot pass
+  kMakeRoom,            // of older vehicles: turning aside for one that comes first and cannot pass
   kObject,              // radar or lidar: an object whose place and motion make it an obstacle
   kLeaving,             // stopping in good order
   kUnsure,              // slower: soon it will not know any more where it is

@@ -65,9 +65,9 @@ enum class EventKind : std::uint8_t {
   kHalted,    // vehicle stood still to give way to other; text: the rule that started it
   kResumed,   // vehicle moves again after a halt, or has left the goal it stood in
   kArrived,   // vehicle stands in its goal; value: seconds since the start
-  kContact,   // vehicle and other started to touch
+  kContact,   // vehicle and other touch; text where other is no vehicle: wall, obstacle or door
   kClosest,   // at the end: the closest approach; value: shell-to-shell metres
-  kFaultDue,  // a planned fault is due now; text: "kill"
+  kFaultDue,  // a planned fault is due now; text: "kill"; value: the signal, if any
   kSilent,    // the world hears no command of vehicle any more
   kRemoved,   // the body of a silent vehicle was taken away
   kJoined,    // vehicle was put on its start pose while the run was in progress

@@ -9,6 +9,9 @@ namespace giveway {
 inline constexpr double kMaxWheel_rad_s = 30.0;
 inline constexpr double kMaxSpeed_m_s = 2.5;
 
+// The most vehicles of an open fleet at any one time; each of its scenario may be one of them.
+inline constexpr int kMaxOpenFleet = 1024;
+
 // No place of a world lies further from its origin along either axis.
 inline constexpr double kMaxCoordinate_m = 100'000;
 

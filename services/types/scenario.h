@@ -2,6 +2,7 @@
 // A value; config loads and checks it, all other modules read it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -124,6 +125,14 @@ struct Expectation {
   std::optional<double> min_separation_m;  // at least this, shell to shell
   std::optional<double> time_to_clear_s;   // at most this
 };
+
+// For how long a world must not have heard a vehicle to count it as silent. Of a long tick a second
+// is no time: the command that answers it comes with the next.
+constexpr Nanoseconds SilenceIn(Nanoseconds tick_period) {
+  constexpr Nanoseconds kLeast{1'000'000'000};
+  constexpr std::int64_t kFewestTicks = 3;
+  return std::max(kLeast, kFewestTicks * tick_period);
+}
 
 struct Scenario {
   std::string name;

@@ -20,4 +20,10 @@ constexpr Nanoseconds FromSeconds(double seconds) {
   return Nanoseconds{static_cast<std::int64_t>(seconds * 1e9 + (seconds < 0 ? -0.5 : 0.5))};
 }
 
+// The fewest ticks that last at least `duration`; 0 for a duration that is not positive.
+constexpr std::uint32_t TicksCovering(Nanoseconds duration, Nanoseconds period) {
+  if (duration <= Nanoseconds::zero()) return 0;
+  return static_cast<std::uint32_t>((duration.count() + period.count() - 1) / period.count());
+}
+
 }  // namespace giveway

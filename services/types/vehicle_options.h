@@ -86,6 +86,8 @@ struct VehicleOptions {
   double sonar_noise = 0;
   Nanoseconds ageing_limit{20'000'000'000};  // waiting longer moves a vehicle up the order
   std::vector<OneLane> one_lanes;  // of the map that all vehicles share; at most kMaxOneLanes
+  // How long after its last command the body of a vehicle that fell silent is still there.
+  Nanoseconds silent_body_stays{6'000'000'000};
 };
 
 // False of a loop too, which never comes to the goal it may have.

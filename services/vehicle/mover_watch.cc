@@ -1,13 +1,16 @@
 #include "services/vehicle/mover_watch.h"
 
+#include <chrono>
+
+#include "services/types/time.h"
 #include "services/vehicle/situation/echoes.h"
 
 namespace giveway {
 namespace {
 
-// Turning faster than this, and for so many ticks after it, echoes do not show which of both moves.
+// Turning faster than this, and so long after it, echoes do not show which of both moves.
 constexpr double kSharpTurn_rad_s = 0.25;
-constexpr std::uint32_t kTurnEchoTicks = 6;
+constexpr Nanoseconds kTurnEcho = std::chrono::milliseconds(300);
 // How long a vehicle stands after the last unidentified motion; by id, so that two of them do not
 // start at the same time. With what it takes to notice the motion and to report, less than the five
 // seconds in which a fleet drives again after its last fault.
@@ -17,9 +20,14 @@ constexpr std::uint32_t kUnidentifiedStaggerSteps = 6;
 
 }  // namespace
 
-bool NoteTurning(double turn_rad_s, Tick tick, MoverWatch* watch) {
-  if (turn_rad_s > kSharpTurn_rad_s || turn_rad_s < -kSharpTurn_rad_s) watch->turned_tick = tick;
-  return watch->turned_tick != kNoTick && TicksBetween(watch->turned_tick, tick) <= kTurnEchoTicks;
+bool NoteTurning(const Twist& own, Tick tick, Nanoseconds tick_period, MoverWatch* watch) {
+  // On the spot a slow turn is enough: nothing comes nearer by driving, and the rim of a cone leaps
+  // along a wall by more than the turn explains.
+  const bool on_the_spot = Magnitude(own.forward_m_s) < kStandingSpeed_m_s;
+  const double sharp_rad_s = on_the_spot ? kTurning_rad_s : kSharpTurn_rad_s;
+  if (Magnitude(own.turn_rad_s) > sharp_rad_s) watch->turned_tick = tick;
+  return watch->turned_tick != kNoTick &&
+         TicksBetween(watch->turned_tick, tick) <= TicksCovering(kTurnEcho, tick_period);
 }
 
 Movers DetectMovers(const OwnView& s, const PeersNow& near, MoverWatch* watch,

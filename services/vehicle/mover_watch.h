@@ -7,9 +7,9 @@
 
 namespace giveway {
 
-// Takes in how fast the vehicle turns. True while it turns sharply, or did just now: a cone that
-// swings along a wall makes its echo come nearer faster than any of the formulas say.
-bool NoteTurning(double turn_rad_s, Tick tick, MoverWatch* watch);
+// Takes in how fast the vehicle turns. True while it turns sharply or on the spot, or did just now:
+// a cone that swings along a wall makes its echo come nearer faster than any of the formulas say.
+bool NoteTurning(const Twist& own, Tick tick, Nanoseconds tick_period, MoverWatch* watch);
 
 Movers DetectMovers(const OwnView& s, const PeersNow& near, MoverWatch* watch,
                     TrustCounters* counters);

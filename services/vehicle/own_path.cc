@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <optional>
 
+#include "services/types/time.h"
 #include "services/vehicle/decision/detour.h"
 #include "services/vehicle/estimation/injected_mutants.h"
 #include "services/vehicle/situation/blocked.h"
@@ -26,13 +28,13 @@ constexpr double kProgress_m = 0.1;
 // longer.
 constexpr double kQueued_m = 1;
 constexpr std::uint32_t kQueuePatience = 8;
-constexpr std::uint32_t kDetourTicks = 10;  // a detour is planned again after so many
-constexpr std::uint32_t kAwayTicks = 60;    // it drives away from what stopped it for so many
-constexpr std::uint32_t kStuckAgainTicks =
-    200;  // and may be stopped again, along a wall, for so many
-// Moved no further than this, for so many ticks, it is stuck.
+constexpr Nanoseconds kDetourEvery = std::chrono::milliseconds(500);  // it is planned again
+constexpr Nanoseconds kAway = std::chrono::seconds(3);  // it drives from what stopped it so long
+constexpr Nanoseconds kStuckAgain =
+    std::chrono::seconds(10);  // and may be stopped again, along a wall, for so long
+// Moved no further than this, for so long, it is stuck.
 constexpr double kStuckWithin_m = 0.1;
-constexpr std::uint32_t kStuckAfterTicks = 200;
+constexpr Nanoseconds kStuckAfter = std::chrono::seconds(10);
 
 // How near it must come to a waypoint in a one-lane section, to turn into it with all of its
 // body inside.
@@ -56,7 +58,7 @@ bool PassesWaypoint(std::uint32_t waypoint, const VehicleOptions& options, bool 
 }
 
 void Restart(GoalProgress* progress) {
-  progress->nearest_m = kNoGoal_m;
+  progress->nearest_m = kFar_m;
   progress->no_progress_ticks = 0;
 }
 
@@ -100,7 +102,7 @@ OwnCourse UpdatePath(const OwnPose& pose, const VehicleOptions& options, RoutePr
                      GoalProgress* progress) {
   const Vec2 position = pose.world_from_body.position_world;
   PassWaypoints(options, position, route, progress);
-  OwnCourse course{.path = {position, pose.forward_world}, .distance_to_goal_m = kNoGoal_m};
+  OwnCourse course{.path = {position, pose.forward_world}, .distance_to_goal_m = kFar_m};
   const bool on_route = route->waypoint < options.route.count;
   if (on_route || options.goal.set) {
     const Vec2 to =
@@ -122,7 +124,7 @@ OwnCourse UpdatePath(const OwnPose& pose, const VehicleOptions& options, RoutePr
 LegsBeyond FindLegsBeyond(const OwnCourse& course, std::uint32_t waypoint,
                           const VehicleOptions& options, double reach_m) {
   LegsBeyond legs;
-  if (course.stops_there || waypoint >= options.route.count) return legs;
+  if (waypoint >= options.route.count) return legs;
   Vec2 at = options.route.waypoints_world[waypoint];
   Vec2 direction_world = course.path.direction_world;
   double from_m = course.distance_to_goal_m;
@@ -146,18 +148,19 @@ namespace {
 // Neither waiting for a peer nor in a queue, it makes no progress: stuck between a few that block
 // each other, or in front of something that it hears and cannot locate. A queue that closes to a
 // ring does not count as one. Returns `escape_attempts` of Escape.
-int NoteStuck(const OwnView& s, bool no_progress, bool queues, bool in_ring,
-              GoalProgress* progress) {
+int NoteStuck(const OwnView& s, bool no_progress, bool in_line, GoalProgress* progress) {
   const Vec2 moved = s.world_from_body.position_world - progress->stuck_world;
   if (!no_progress || SquaredNorm(moved) > kStuckWithin_m * kStuckWithin_m) {
     progress->stuck_world = s.world_from_body.position_world;
     progress->stuck_ticks = 0;
     return -1;
   }
-  if (queues && !in_ring) return -1;
+  if (in_line) return -1;
   progress->stuck_ticks += s.new_tick ? 1 : 0;
-  if (progress->stuck_ticks < kStuckAfterTicks) return -1;
-  return static_cast<int>((progress->stuck_ticks - kStuckAfterTicks) / kAwayTicks);
+  const std::uint32_t after = TicksCovering(kStuckAfter, s.options.tick_period);
+  if (progress->stuck_ticks < after) return -1;
+  return static_cast<int>((progress->stuck_ticks - after) /
+                          TicksCovering(kAway, s.options.tick_period));
 }
 
 // Where the path past all standing bodies leads first.
@@ -172,6 +175,23 @@ std::optional<Vec2> PathAround(const OwnView& s, std::span<const PeerView> peers
   return FirstTurn(s.world_from_body.position_world, Toward(s), {discs.data(), count});
 }
 
+// Whether the last decision was to wait for what will let it drive: a peer, a light, the operator,
+// its own sensors. Something that moves and has no beacon may be there for ever.
+bool MakesItWait(Rule rule) {
+  switch (rule) {
+    case Rule::kGiveWay:
+    case Rule::kNotGranted:
+    case Rule::kPeerLost:
+    case Rule::kSignal:
+    case Rule::kNotRunning:
+    case Rule::kLeaving:
+    case Rule::kRangesStale:
+      return true;
+    default:
+      return false;
+  }
+}
+
 }  // namespace
 
 Escape Detour(const OwnView& s, const PeersNow& near, const LastStep& last, GoalProgress* of) {
@@ -182,33 +202,30 @@ Escape Detour(const OwnView& s, const PeersNow& near, const LastStep& last, Goal
     progress.no_progress_ticks = 0;
     progress.detour_tick = kNoTick;
   }
-  const Rule rule = last.decision.rule;
-  if (IsGiveWay(rule) || rule == Rule::kSignal || s.lost) return escape;
-  // No detours either while it receives no ranges. Not changed for exact ultrasonics: their
-  // recordings must replay bit for bit.
-  if (rule == Rule::kRangesStale && Remembers(s.options)) return escape;
-  const bool queues = progress.stuck_ticks < kStuckAfterTicks &&
+  if (MakesItWait(last.decision.rule) || s.lost) return escape;
+  const auto ticks = [&s](Nanoseconds time) { return TicksCovering(time, s.options.tick_period); };
+  const bool queues = progress.stuck_ticks < ticks(kStuckAfter) &&
                       std::ranges::any_of(near.peers, [](const PeerView& view) {
                         return view.leads && view.gap_m < kQueued_m;
                       });
   // Nor does it look about there more often, or it would end up across the lane.
   if (queues && Number(s.tick) % kQueuePatience != 0) return escape;
   progress.no_progress_ticks += s.new_tick ? 1 : 0;
-  if (s.distance_to_goal_m >= kNoGoal_m || s.arrived) return escape;
+  if (s.distance_to_goal_m >= kFar_m || s.arrived) return escape;
   if (MutantActive(Mutant::kPatienceDropped)) progress.no_progress_ticks += 1000;
   const std::uint32_t away_ticks = progress.away_tick == kNoTick
-                                       ? kStuckAgainTicks + 1
+                                       ? ticks(kStuckAgain) + 1
                                        : TicksBetween(progress.away_tick, s.tick);
   const double no_progress_s = Seconds(progress.no_progress_ticks * s.options.tick_period);
-  const bool no_progress = no_progress_s >= kNoProgress_s || away_ticks <= kStuckAgainTicks;
+  const bool no_progress = no_progress_s >= kNoProgress_s || away_ticks <= ticks(kStuckAgain);
   escape.no_progress = no_progress;
   escape.long_no_progress = no_progress_s >= kProgressTimeout_s;
-  const bool in_ring = queues && no_progress && IsBehind(last.blocked_by, s.options.id, near.peers);
-  escape.escape_attempts = NoteStuck(s, no_progress, queues, in_ring, &progress);
+  const bool in_line = queues && !IsBehind(last.blocked_by, s.options.id, near.peers);
+  escape.escape_attempts = NoteStuck(s, no_progress, in_line, &progress);
   if (!no_progress) return escape;
-  if (away_ticks <= kAwayTicks) escape.away_rad = progress.away_rad;
+  if (away_ticks <= ticks(kAway)) escape.away_rad = progress.away_rad;
   if (progress.detour_tick == kNoTick ||
-      TicksBetween(progress.detour_tick, s.tick) >= kDetourTicks) {
+      TicksBetween(progress.detour_tick, s.tick) >= ticks(kDetourEvery)) {
     const std::optional<Vec2> turn = PathAround(s, near.peers);
     progress.detour_tick = turn ? s.tick : kNoTick;
     if (turn) progress.detour_world = *turn;

@@ -21,7 +21,7 @@ void EnterWorld(WorldEpoch epoch, const Pose& world_from_body, const VehicleOpti
   state.motion.pose_tick = kNoTick;
   state.motion.wheels = {};
   state.route.waypoint = 0;
-  state.progress.nearest_m = kNoGoal_m;
+  state.progress.nearest_m = kFar_m;
   state.progress.no_progress_ticks = 0;
   state.progress.detour_tick = kNoTick;
   state.progress.away_tick = kNoTick;

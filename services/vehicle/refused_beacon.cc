@@ -1,6 +1,7 @@
 #include "services/vehicle/refused_beacon.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "services/vehicle/estimation/beacon_check.h"
 
@@ -13,6 +14,12 @@ const Peer* PeerOf(const PeerTable& peers, VehicleId id) {
   const auto all = peers.Peers();
   const auto found = std::ranges::lower_bound(all, id, {}, &Peer::id);
   return found == all.end() || found->id != id ? nullptr : &*found;
+}
+
+// Of a beacon whose numbers are possible, but not yet.
+FieldFault TooFarAhead(const Beacon& beacon, const VehicleState& state) {
+  const double most = Number(After(state.world.tick, kMostTicksAhead));
+  return {"tick", static_cast<double>(Number(beacon.tick)), 0, most};
 }
 
 void DescribeReplayed(const Beacon& beacon, const VehicleState& state, Refusal* refusal) {
@@ -45,7 +52,9 @@ Refusal Explain(const ReceivedBeacon& received, BeaconRefusal why, const Vehicle
       break;
     case BeaconRefusal::kNotFinite:
     case BeaconRefusal::kOutOfRange: {
-      const FieldFault fault = FaultOf(beacon).value_or(FieldFault{});
+      const std::optional<FieldFault> own = FaultOf(beacon);
+      const FieldFault fault = own.value_or(TooFarAhead(beacon, state));
+      refusal.passing = !own;  // the own scans may be late
       say(why == BeaconRefusal::kNotFinite ? "rejected_not_finite" : "rejected_out_of_range",
           fault.field, Describe(fault));
       break;

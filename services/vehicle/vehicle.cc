@@ -4,6 +4,7 @@
 
 #include "services/types/check.h"
 #include "services/types/math/math.h"
+#include "services/types/time.h"
 #include "services/vehicle/decision/decide.h"
 #include "services/vehicle/estimation/beacon_check.h"
 #include "services/vehicle/estimation/injected_mutants.h"
@@ -26,7 +27,7 @@
 namespace giveway {
 namespace {
 
-constexpr std::uint32_t kBlockedTicks = 20;  // how long a blocker counts after it was last seen
+constexpr Nanoseconds kBlockedFor = std::chrono::seconds(1);  // a blocker that is not seen any more
 // What the wheels do and what the encoders say of it are wrong independently of each other.
 double WheelError(const RobotModel& profile) {
   return Sqrt(profile.wheel_slip * profile.wheel_slip +
@@ -83,9 +84,7 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
   if (scan.epoch != state.world.epoch)
     EnterWorld(scan.epoch, options_.start_world, options_, &state);
   // Out of order: older than known. The scan of the very tick it was placed at is still to be seen.
-  if (scan.tick < state.motion.pose_tick ||
-      (state.world.tick != kNoTick && scan.tick == state.world.tick))
-    return;
+  if (scan.tick < state.motion.pose_tick || scan.tick == state.world.tick) return;
   const std::uint32_t ticks =
       state.motion.pose_tick == kNoTick ? 1 : TicksBetween(state.motion.pose_tick, scan.tick);
   const double dt_s = Seconds(ticks * options_.tick_period);
@@ -163,12 +162,13 @@ void Vehicle::TakePeers(const Inputs& inputs) {
 
 void Vehicle::TakeSignalsAndObjects(const Inputs& inputs) {
   VehicleState& state = *state_;
+  const Pose& own = state.motion.odometry.WorldFromBody();
   for (const SignalState& signal : inputs.signals) {
-    state.counters.signals_refused +=
-        state.heard.signals.Take(signal, state.world.epoch, inputs.now) ? 0 : 1;
+    const bool taken =
+        state.heard.signals.Take(signal, state.world.epoch, inputs.now, own.position_world);
+    state.counters.signals_refused += taken ? 0 : 1;
   }
-  const Observer observer{state.world.epoch, state.world.tick,
-                          state.motion.odometry.WorldFromBody(), SpeedMps()};
+  const Observer observer{state.world.epoch, state.world.tick, own, SpeedMps()};
   state.counters.scans_refused += TakeObjects(inputs, observer, &state.sensed.objects);
 }
 
@@ -196,7 +196,7 @@ OwnMotion Vehicle::AssessOwnMotion(const OwnPose& pose) {
   motion.sweeps_m = OwnSweep(motion, pose.covariance, options_);
   // The printed scripts know no peers.
   motion.turns = options_.behaviour != Behaviour::kLecturePrinted &&
-                 NoteTurning(motion.turn_rad_s, state_->world.tick, &state_->movers);
+                 NoteTurning(twist, state_->world.tick, options_.tick_period, &state_->movers);
   return motion;
 }
 
@@ -254,7 +254,7 @@ OwnView Vehicle::AssessSelf(const Inputs& inputs) {
           sensors,
           lights,
           options_,
-          ActingOrder(state.waiting.order, state.heard.peers, options_.id),
+          ActingOrder(state.waiting.order, state.heard.peers, moment, options_),
           state.last.steer_side};
 }
 
@@ -362,7 +362,8 @@ void Vehicle::KeepBlocked(VehicleId blocked_by, const Situation& s) {
   if (fresh && blocker->peer->encounter.holds && blocker->peer->beacon.order.vehicle == options_.id)
     state.last.blocked_tick = s.own.tick;
   const bool recent = state.last.blocked_tick != kNoTick && !s.own.arrived &&
-                      TicksBetween(state.last.blocked_tick, s.own.tick) <= kBlockedTicks;
+                      TicksBetween(state.last.blocked_tick, s.own.tick) <=
+                          TicksCovering(kBlockedFor, options_.tick_period);
   const bool near = fresh && blocker->gap_m < kQueueWithin_m;  // to block it again at once
   if (!recent || !near) state.last.blocked_by = kNoVehicle;
 }
@@ -375,7 +376,8 @@ Beacon Vehicle::MakeBeacon(const Situation& s) {
   return {.vehicle = options_.id,
           .boot_epoch = state.published.boot_epoch,
           .seq = state.published.seq,
-          .world_epoch = state.world.epoch,
+          // Before its first scan it answers none: it is of no world yet.
+          .world_epoch = state.world.tick == kNoTick ? kNoEpoch : state.world.epoch,
           .tick = state.world.tick,
           .wheels = state.motion.wheels,
           .cruise_m_s = options_.cruise_m_s,

@@ -10,8 +10,11 @@
 #include "services/link/fastdds/library_release.h"
 #include "services/link/vehicle_link.h"
 #include "services/node/admin_access.h"
+#include "services/node/environment_check.h"
+#include "services/node/qos_at_start.h"
 #include "services/node/server_wait.h"
 #include "services/node/service_main.h"
+#include "services/node/start_inputs.h"
 #include "services/runtime/hang_signal.h"
 #include "services/runtime/identity.h"
 #include "services/vehicle_node/vehicle_end.h"
@@ -40,7 +43,7 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario, link::LinkOpti
   OpenRecorder(flags, &recorder);
   options.impairment = ImpairmentOf(flags, scenario);
   const auto servers =
-      AwaitServers(options, stop, [&](const std::string& why) { health.OnJoining(why); });
+      AwaitServers(options, stop, [&](const std::string& why) { health.OnStarting(why); });
   if (!servers) return {};
   options.server_addresses = *servers;
   auth::AdminGate gate = AdminGateOf(flags);
@@ -58,9 +61,10 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario, link::LinkOpti
   // Before it asks for a place: the world may give one to a session that would not be there any
   // more.
   if (starts_again()) return over_udp();
-  const auto entry = Join(
+  const auto [entry, interface_lost] = Join(
       {.link = &link, .clock = &clock, .health = &health, .scenario = &scenario},
       [&] { return stop.IsSet() || starts_again(); }, VehicleId{flags.id}, session);
+  if (interface_lost) return {1, {}};
   if (!entry && starts_again()) return over_udp();
   if (!entry) return {};
   if (!entry->accepted) return {2, {}};
@@ -68,8 +72,8 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario, link::LinkOpti
   SetLogVehicle(entry->vehicle);
   if (flags.id == 0) LogInfo("is vehicle " + std::to_string(Number(entry->vehicle)));
   link.Open(entry->vehicle, OptionsOf(scenario, *entry).profile, !scenario.signals.empty());
-  ServiceAdmin admin(&link, options, entry->vehicle, flags.lockstep, std::move(gate),
-                     [&recorder] { return recorder && recorder->Keep(); });
+  ServiceAdmin admin(&link, options, ServiceDeployment(scenario), entry->vehicle, flags.lockstep,
+                     std::move(gate), [&recorder] { return recorder && recorder->Keep(); });
   // With shared memory the library touches some of it only when samples go.
   const auto on_first_scan = [&] {
     settled();
@@ -92,12 +96,15 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario, link::LinkOpti
 int Run(const ServiceFlags& flags, const StopSignal& stop) {
   const std::string name = flags.id == 0 ? "vehicle" : "vehicle " + std::to_string(flags.id);
   InitLog(name, flags.log_format, flags.log_level);
+  if (flags.try_qos.empty()) WarnOfEnvironment();
   std::optional<HangSignal> hang;
   if (flags.hang_on_signal) hang.emplace();
   SetLogVehicle(VehicleId{flags.id});
-  const Scenario scenario = LoadScenario(
-      flags.scenario,
-      {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});
+  const Scenario scenario = LoadForStart(flags, [&] {
+    return LoadScenario(
+        flags.scenario,
+        {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});
+  });
   const auto live = [&](const link::LinkOptions& options, const std::function<void()>& settled) {
     return Live(flags, scenario, options, stop, settled);
   };

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "services/link/drive_link.h"
+#include "services/node/interface_check.h"
 #include "services/vehicle_node/scan_watch.h"
 
 namespace giveway {
@@ -17,7 +18,8 @@ enum class Remedy : std::uint8_t {
 
 class ReceptionMonitor {
  public:
-  ReceptionMonitor(link::DriveLink* link, SteadyTime now) : link_(*link), scans_(now) {}
+  ReceptionMonitor(link::DriveLink* link, SteadyTime now)
+      : link_(*link), scans_(now), interface_([link] { return link->InterfaceChange(); }) {}
 
   // Once a turn; `scan`: one came; `settled`: no order is being carried out that a restart would
   // drop. Says in the log why, where there is a remedy.
@@ -26,8 +28,7 @@ class ReceptionMonitor {
  private:
   link::DriveLink& link_;
   ScanWatch scans_;
-  SteadyTime last_scan_{0};
-  SteadyTime next_check_{0};
+  InterfaceCheck interface_;
 };
 
 }  // namespace giveway

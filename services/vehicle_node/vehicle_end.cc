@@ -8,7 +8,9 @@ namespace {
 NewFlags ToComeBack(const VehicleLoop& loop, const ServiceAdmin& admin) {
   NewFlags flags = admin.ToComeBack();
   flags["--id"] = std::to_string(Number(loop.Id()));
-  flags["--resume"] = HoldText("resume", ToBytes({loop.Session(), admin.Order(), loop.HandOver()}));
+  flags["--resume"] = "";  // where it cannot be held: not that of an earlier restart
+  HoldTextFor("--resume", "resume", ToBytes({loop.Session(), admin.Order(), loop.HandOver()}),
+              &flags);
   return flags;
 }
 

@@ -5,6 +5,13 @@
 
 namespace giveway {
 
+void VehicleHealthReporter::OnStarting(const std::string& waits_for) {
+  VehicleHealth& now = service_.Now();
+  now.loop.stage = HealthStage::kStarting;
+  now.waits_for = ShortText(waits_for);
+  service_.Publish();
+}
+
 void VehicleHealthReporter::OnJoining(const std::string& waits_for) {
   VehicleHealth& now = service_.Now();
   now.loop.stage = HealthStage::kJoining;

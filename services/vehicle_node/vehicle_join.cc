@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "services/link/fastdds/link_options.h"
+#include "services/node/interface_check.h"
 #include "services/runtime/process.h"
 #include "services/runtime/refusal_log.h"
 #include "services/vehicle_node/asking.h"
@@ -79,9 +80,12 @@ std::string WhyNoPlace(const Scenario& scenario, const RosterEntry& entry, Vehic
     return "vehicle is " + std::to_string(Number(entry.vehicle)) + ", must be " +
            std::to_string(Number(own));
   }
-  if (PlaceOf(scenario, entry) == nullptr) {
+  const VehicleOptions* const place = PlaceOf(scenario, entry);
+  if (place == nullptr) {
     return "the scenario has no such place: spawn " + std::to_string(entry.spawn);
   }
+  // With neither it drives straight on, as far as its run lasts.
+  if (!place->goal.set && !place->route.loop) return {};
   if (IsNear(scenario, entry.start_world.position_world)) return {};
   return "start_world is far from all places of the scenario";
 }
@@ -94,18 +98,19 @@ Refusal RefusalOf(const RosterEntry& entry, const std::string& why) {
           .why = why};
 }
 
-std::optional<RosterEntry> Join(const JoinParts& parts, const std::function<bool()>& is_stopped,
-                                VehicleId wanted, const std::optional<SessionId>& session) {
+JoinEnd Join(const JoinParts& parts, const std::function<bool()>& is_stopped, VehicleId wanted,
+             const std::optional<SessionId>& session) {
   link::DriveLink& link = *parts.link;
   Clock& clock = *parts.clock;
   Asking asking(&link, &clock, wanted, session);
   RefusalLog refusals;
+  InterfaceCheck interface([&link] { return link.InterfaceChange(); });
   SteadyTime remind = clock.Now() + kReminder;
   while (!is_stopped()) {
     const auto entry = link.TakeRoster(asking.Session());
     if (entry && IsPlace(*entry, wanted, parts, &refusals) && asking.IsFinal(*entry)) {
       if (!entry->accepted) LogRefusal(*entry);
-      return entry;
+      return {.entry = entry};
     }
     asking.AskAgainIfDue();
     const std::string& answer = asking.WaitsFor();
@@ -113,8 +118,9 @@ std::optional<RosterEntry> Join(const JoinParts& parts, const std::function<bool
     clock.SleepUntil(clock.Now() + kPoll);
     if (clock.Now() < remind) continue;
     remind += kReminder;
-    const std::string change = link.InterfaceChange();
-    if (!change.empty()) throw link::LinkError(change + "; ends, to be started again");
+    // Whatever was heard: an answer may be older than the change.
+    if (interface.MustEnd(clock.Now(), false))
+      return {.entry = std::nullopt, .interface_lost = true};
     if (asking.Answered()) continue;
     const std::string no_servers = link.WhyNoPeerIsFound();
     LogWarning(!no_servers.empty()
@@ -122,7 +128,7 @@ std::optional<RosterEntry> Join(const JoinParts& parts, const std::function<bool
                    : "no answer from a world yet: is giveway-world running in this domain?");
   }
   link.SendLeave(asking.Session());
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace giveway

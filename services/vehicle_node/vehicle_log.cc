@@ -15,6 +15,20 @@ bool HasLeft(VehicleId peer, const Vehicle& vehicle) {
   return found != peers.end() && found->left;
 }
 
+void LogEvent(const QosEvent& event, const Vehicle& vehicle) {
+  switch (event.kind) {
+    case QosEventKind::kDeadlineMissed:
+    case QosEventKind::kLivelinessLost:
+      // Its writer is gone a moment after its leave notice.
+      if (HasLeft(event.vehicle, vehicle)) return;
+      [[fallthrough]];
+    case QosEventKind::kIncompatibleQos:
+      return LogWarning(Describe(event), event.at);
+    default:
+      LogInfo(Describe(event), event.at);
+  }
+}
+
 }  // namespace
 
 void VehicleLog::LogLink(std::span<const Refusal> refusals, const std::vector<std::string>& unfit,
@@ -26,22 +40,15 @@ void VehicleLog::LogPackets(const PacketCounters& packets, SteadyTime now) {
   LogDrops(packets, now, &packet_log_);
 }
 
-void VehicleLog::LogEvents(std::span<const QosEvent> events, const Vehicle& vehicle) {
+void VehicleLog::LogEvents(std::span<const QosEvent> events, const Vehicle& vehicle,
+                           SteadyTime now) {
+  const std::uint32_t left_out = event_lines_.TakeLeftOut(now);
+  if (left_out > 0) LogInfo("and " + std::to_string(left_out) + " more such events of peers");
   for (const QosEvent& event : events) {
-    switch (event.kind) {
-      case QosEventKind::kDeadlineMissed:
-      case QosEventKind::kLivelinessLost:
-        // Its writer is gone a moment after its leave notice.
-        if (HasLeft(event.vehicle, vehicle)) break;
-        [[fallthrough]];
-      case QosEventKind::kIncompatibleQos:
-        LogWarning(Describe(event), event.at);
-        break;
-      case QosEventKind::kSampleLost:
-        LogDebug(Describe(event));
-        break;
-      default:
-        LogInfo(Describe(event), event.at);
+    if (event.kind == QosEventKind::kSampleLost) {
+      LogDebug(Describe(event));
+    } else if (event_lines_.Take(now)) {
+      LogEvent(event, vehicle);
     }
   }
 }

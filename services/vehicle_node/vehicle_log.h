@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "services/runtime/line_budget.h"
 #include "services/runtime/packet_log.h"
 #include "services/runtime/refusal_log.h"
 #include "services/types/refusal.h"
@@ -25,8 +26,9 @@ class VehicleLog {
   // What was dropped of the packets that reached this process.
   void LogPackets(const PacketCounters& packets, SteadyTime now);
   // What the middleware says of the peers. Joining and leaving is info, the rest a warning; a lost
-  // beacon is neither on a radio, and would be logged many times a second.
-  void LogEvents(std::span<const QosEvent> events, const Vehicle& vehicle);
+  // beacon is neither on a radio, and would be logged many times a second. So many lines a second:
+  // one participant may have any number of writers.
+  void LogEvents(std::span<const QosEvent> events, const Vehicle& vehicle, SteadyTime now);
   // What the brain refused of these. What is broken or misnamed the link has said, and knows more
   // of it.
   void LogRefusals(std::span<const ReceivedBeacon> beacons, const Vehicle& vehicle, SteadyTime now);
@@ -40,6 +42,7 @@ class VehicleLog {
   BeaconFreshnessMonitor beacon_freshness_;
   RefusalLog refusal_log_;
   PacketLog packet_log_;
+  LineBudget event_lines_{256};  // all that a fleet of as many says when it starts
   bool logged_blackouts_ = false;
 };
 

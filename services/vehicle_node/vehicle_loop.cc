@@ -121,10 +121,10 @@ void VehicleLoop::Turn(bool leaving) {
   log_.LogPackets(link::PacketsOfProcess(), woke);
   report_.NoteLeft(taken.left);
   if (lockstep_ && !leaving && !world_time_.Keep(&inputs, options_.tick_period)) {
-    return LogEvents(events);
+    return LogEvents(events, woke);
   }
   const bool decision_changed = Step(&taken, woke, by_scan);
-  LogEvents(events);
+  LogEvents(events, woke);
   log_.LogRefusals(inputs.beacons, vehicle_, woke);
   if (!leaving && !restarts_ && serve_orders_()) restarts_ = true;
   const bool looks = !leaving && !restarts_ && !lockstep_;
@@ -149,6 +149,7 @@ void VehicleLoop::KeepPlace(const link::Taken& taken, SteadyTime woke) {
 void VehicleLoop::Follow(const RosterEntry& entry) {
   const std::string why = WhyNoPlace(scenario_, entry, Id());
   if (!why.empty()) {
+    place_.FollowRun(entry);  // wherever it is: it would not end with its run
     const Refusal refusal = RefusalOf(entry, why);
     log_.LogLink({&refusal, 1}, {}, clock_.Now());
     return;
@@ -199,9 +200,9 @@ bool VehicleLoop::Step(link::Taken* taken, SteadyTime woke, bool by_scan) {
   return outputs.decision_changed;
 }
 
-void VehicleLoop::LogEvents(std::span<const QosEvent> events) {
+void VehicleLoop::LogEvents(std::span<const QosEvent> events, SteadyTime woke) {
   report_.NoteEvents(events);
-  log_.LogEvents(events, vehicle_);
+  log_.LogEvents(events, vehicle_, woke);
 }
 
 }  // namespace giveway

@@ -67,7 +67,7 @@ class VehicleLoop {
   void KeepPlace(const link::Taken& taken, SteadyTime woke);
   void Follow(const RosterEntry& entry);
   bool Step(link::Taken* taken, SteadyTime woke, bool by_scan);
-  void LogEvents(std::span<const QosEvent> events);
+  void LogEvents(std::span<const QosEvent> events, SteadyTime woke);
 
   link::DriveLink& link_;
   Clock& clock_;

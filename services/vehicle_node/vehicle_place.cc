@@ -36,6 +36,11 @@ PlaceNews VehiclePlace::Follow(const RosterEntry& entry) {
   return elsewhere ? PlaceNews::kElsewhere : PlaceNews::kEntry;
 }
 
+void VehiclePlace::FollowRun(const RosterEntry& entry) {
+  const bool of_this_place = entry.vehicle == entry_.vehicle && entry.epoch == entry_.epoch;
+  if (of_this_place && entry.run_state == RunState::kEnded) entry_.run_state = entry.run_state;
+}
+
 // As the same session: the world may know it still.
 void VehiclePlace::LookForBody(bool lacks_body) {
   if (!lacks_body || asking_ || RunHasEnded()) {

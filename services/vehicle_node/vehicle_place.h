@@ -37,6 +37,8 @@ class VehiclePlace {
 
   // The world's newest word.
   PlaceNews Follow(const RosterEntry& entry);
+  // Of an entry whose place is not taken: whether the run of this place has ended, nothing else.
+  void FollowRun(const RosterEntry& entry);
   // Once a turn: a vehicle that stays asks the next world when the run is over, until it is
   // answered. So does one that has had no body for a while: `lacks_body`, see DriveLink.
   void KeepAsking(bool lacks_body);

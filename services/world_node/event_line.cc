@@ -5,19 +5,35 @@ namespace {
 
 std::string IdText(VehicleId vehicle) { return std::to_string(Number(vehicle)); }
 
+std::string TouchedText(const WorldEvent& event) {
+  if (event.other != kNoVehicle) return "vehicle " + IdText(event.other);
+  if (event.text.empty()) return "something";
+  return (event.text == "obstacle" ? "an " : "a ") + event.text;
+}
+
+// What a planned fault concerns: a signal, or else a vehicle.
+std::string DueText(const WorldEvent& event) {
+  if (event.vehicle != kNoVehicle) return event.text + " of vehicle " + IdText(event.vehicle);
+  return event.text + " of signal " + std::to_string(static_cast<std::uint32_t>(event.value));
+}
+
+std::string ScheduledText(const WorldEvent& event) {
+  return event.text + (event.vehicle == kNoVehicle ? ", of all vehicles"
+                                                   : ", of vehicle " + IdText(event.vehicle));
+}
+
 }  // namespace
 
 std::string LogLine(const WorldEvent& event) {
   switch (event.kind) {
     case EventKind::kContact:
-      return "contact: vehicle " + IdText(event.vehicle) + " touched " +
-             (event.other == kNoVehicle ? "something" : "vehicle " + IdText(event.other));
+      return "contact: vehicle " + IdText(event.vehicle) + " touched " + TouchedText(event);
     case EventKind::kFaultDue:
-      return "fault due: " + event.text;
+      return "fault due: " + DueText(event);
     case EventKind::kFaultBegan:
-      return "fault starts: " + event.text;
+      return "fault starts: " + ScheduledText(event);
     case EventKind::kFaultOver:
-      return "fault is over: " + event.text;
+      return "fault is over: " + ScheduledText(event);
     case EventKind::kSilent:
       return "vehicle " + IdText(event.vehicle) + " fell silent";
     case EventKind::kRemoved:

@@ -11,15 +11,29 @@
 #include "services/config/scenario_file.h"
 #include "services/link/fastdds/library_release.h"
 #include "services/node/admin_access.h"
+#include "services/node/environment_check.h"
+#include "services/node/qos_at_start.h"
 #include "services/node/server_wait.h"
 #include "services/node/service_main.h"
 #include "services/node/service_run.h"
+#include "services/node/start_inputs.h"
 #include "services/runtime/identity.h"
 #include "services/runtime/parallel_for.h"
 #include "services/world_node/world_start.h"
 
 namespace giveway {
 namespace {
+
+// What cannot be held is left out, and so is that of an earlier restart: the world then resumes
+// from its checkpoint file, as after a crash.
+NewFlags ToComeBack(const ServiceAdmin& admin, const WorldLoop& loop) {
+  NewFlags flags = admin.ToComeBack();
+  flags["--resume"] = "";
+  flags["--go-on-from"] = "";
+  HoldTextFor("--resume", "resume", ToBytes({SessionId{}, admin.Order(), std::nullopt}), &flags);
+  HoldTextFor("--go-on-from", "run", loop.State(), &flags);
+  return flags;
+}
 
 // From the link's first moment to its last.
 LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario,
@@ -40,7 +54,8 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario,
   auth::AdminGate gate = AdminGateOf(flags);
   link::WorldLink link(link_options, ServiceOptionsOf(gate, scenario));
   PublishIdentity({kNoVehicle, link.ParticipantText()});
-  ServiceAdmin admin(&link, link_options, kNoVehicle, flags.lockstep, std::move(gate));
+  ServiceAdmin admin(&link, link_options, ServiceDeployment(scenario), kNoVehicle, flags.lockstep,
+                     std::move(gate));
   options.on_back = [&] {
     settled();
     if (flags.resume && flags.resume->order != 0) {
@@ -50,10 +65,7 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario,
   WorldLoop loop(scenario, &link, &admin, &health, options);
   const WorldEnd end = loop.Drive(stop);
   if (end == WorldEnd::kRestarts) {
-    NewFlags back = admin.ToComeBack();
-    back["--resume"] = HoldText("resume", ToBytes({SessionId{}, admin.Order(), std::nullopt}));
-    back["--go-on-from"] = HoldText("run", loop.State());
-    return WithoutLostMemory({0, back}, link.SharedMemoryIsGone());
+    return WithoutLostMemory({0, ToComeBack(admin, loop)}, link.SharedMemoryIsGone());
   }
   // To stop when asked to is no failure.
   return {end == WorldEnd::kPassed || stop.IsSet() ? 0 : 1, {}};
@@ -61,16 +73,20 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario,
 
 int Run(const ServiceFlags& flags, const StopSignal& stop) {
   InitLog("world", flags.log_format, flags.log_level);
-  const ScenarioWithFaults loaded = LoadScenarioWithFaults(
-      flags.scenario,
-      {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});
+  if (flags.try_qos.empty()) WarnOfEnvironment();
+  const ScenarioWithFaults loaded = LoadForStart(flags, [&] {
+    return LoadScenarioWithFaults(
+        flags.scenario,
+        {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});
+  });
   const Scenario& scenario = loaded.scenario;
   // Each is for its own actor, and all must draw the same.
   if (loaded.faults && flags.faults.empty()) {
     LogWarning(
         "the scenario's `faults` are left out: fleetctl run and fleetctl soak carry them out");
   }
-  const sim::FaultSchedule schedule = LoadSchedule(flags, scenario);
+  const sim::FaultSchedule schedule =
+      LoadForStart(flags, [&] { return LoadSchedule(flags, scenario); });
   const auto live = [&](const link::LinkOptions& options, const std::function<void()>& settled) {
     return Live(flags, scenario, schedule, options, stop, settled);
   };

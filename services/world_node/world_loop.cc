@@ -9,8 +9,8 @@
 #include "services/node/service_run.h"
 #include "services/runtime/identity.h"
 #include "services/runtime/state_file.h"
+#include "services/types/time.h"
 #include "services/world_node/event_line.h"
-#include "sim_world/geometry/ticks.h"
 
 namespace giveway {
 namespace {
@@ -19,6 +19,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr Nanoseconds kLockstepPatience = seconds(1);
+constexpr Nanoseconds kStopPoll = milliseconds(20);
 constexpr Nanoseconds kFlushTimeout = milliseconds(500);
 constexpr Nanoseconds kFlushWhenStopped = milliseconds(300);  // all is to be over in a second
 constexpr Nanoseconds kCheckpointPeriod = milliseconds(200);
@@ -51,29 +52,28 @@ WorldLoop::WorldLoop(const Scenario& scenario, link::WorldLink* link, ServiceAdm
       epoch_(EpochOf(options)),
       fleet_(std::make_unique<Fleet>(scenario, epoch_, options)),
       start_by_(SteadyNow() + FromSeconds(scenario.start_timeout_s)),
-      report_alone_(SteadyNow() + kReminder) {
-  if (options_.checkpoint) Resume(*options_.checkpoint);
-  if (!options_.checkpoint_file.empty()) StartCheckpoints();
+      report_alone_(SteadyNow() + kReminder),
+      interface_check_([link] { return link->InterfaceChange(); }) {
+  const bool resumes = options_.checkpoint && Resume(*options_.checkpoint);
+  if (!options_.checkpoint_file.empty()) StartCheckpoints(resumes);
 }
 
-// One that restarted itself has its run from elsewhere: a disk that is full does not end it.
-void WorldLoop::StartCheckpoints() {
+// A disk that is full does not keep a run from its vehicles that could resume.
+void WorldLoop::StartCheckpoints(bool resumes) {
   const std::string complaint = WriteStateFile(options_.checkpoint_file, State());
-  if (!complaint.empty() && !options_.same_epoch) {
-    throw std::runtime_error("--checkpoint " + complaint);
-  }
+  if (!complaint.empty() && !resumes) throw std::runtime_error("--checkpoint " + complaint);
   NoteCheckpoint(complaint);
   checkpoint_writer_ = std::make_unique<StateWriter<>>(
       [this](const std::string& bytes) { return WriteStateFile(options_.checkpoint_file, bytes); });
 }
 
-void WorldLoop::Resume(const sim::FleetCheckpoint& checkpoint) {
+bool WorldLoop::Resume(const sim::FleetCheckpoint& checkpoint) {
   if (!fleet_->admission.Restore(checkpoint)) {
     LogWarning("the checkpoint does not fit the scenario: starts a new run");
     fleet_ = std::make_unique<Fleet>(scenario_, epoch_, options_);
-    return;
+    return false;
   }
-  if (!checkpoint.run.started) return;
+  if (!checkpoint.run.started) return true;
   resumed_with_.emplace();
   for (const VehicleId vehicle : fleet_->admission.Expected()) {
     if (!fleet_->run.IsAbandoned(vehicle)) resumed_with_->push_back(vehicle);
@@ -81,6 +81,7 @@ void WorldLoop::Resume(const sim::FleetCheckpoint& checkpoint) {
   start_by_ = SteadyNow() + kResumePatience;
   LogInfo("resumes from the checkpoint with " + std::to_string(resumed_with_->size()) +
           " vehicles, " + std::to_string(fleet_->run.TimeSeconds()) + " s after the start");
+  return true;
 }
 
 std::string WorldLoop::State() const {
@@ -92,9 +93,10 @@ WorldEnd WorldLoop::Drive(const StopSignal& stop) {
   while (fleet_->run.State() != RunState::kEnded) {
     const std::uint32_t missed = ticker.Wait();
     if (fleet_->run.State() == RunState::kRunning) overruns_ += missed;
-    if (options_.lockstep) AwaitAnswers();
+    if (options_.lockstep) AwaitAnswers(stop);
     if (stop.IsSet()) fleet_->run.End("interrupted");
     RunTick();
+    if (interface_lost_ && !stop.IsSet()) return WorldEnd::kInterfaceLost;
     KeepCheckpoint();
     ReportHealth(HealthStage::kUnderWay);
     PublishHeapIfDue();
@@ -164,7 +166,7 @@ void WorldLoop::ReportLeftOut() {
 void WorldLoop::Welcome(const RosterEntry& entry) {
   Newcomer& newcomer = newcomers_[entry.vehicle];
   if (newcomer.session == entry.session) return;
-  const auto stand = sim::TicksCovering(kUnheardStand, scenario_.tick_period);
+  const auto stand = TicksCovering(kUnheardStand, scenario_.tick_period);
   newcomer = {entry.session, After(fleet_->run.Now(), stand)};
   heard_.erase(entry.vehicle);
 }
@@ -176,12 +178,14 @@ void WorldLoop::Close() {
     next_checkpoint_ = {};
     heard_.erase(vehicle);
     newcomers_.erase(vehicle);
+    if (resumed_with_) std::erase(*resumed_with_, vehicle);  // else they wait for it
   }
 }
 
 void WorldLoop::TakeCommands() {
   const auto commands = link_.TakeCommands();
   const SteadyTime now = SteadyNow();
+  interface_lost_ = interface_check_.MustEnd(now, !commands.empty());
   for (const MotorCommand& command : commands) Heed(command);
   for (const MotorCommand& command : commands_) {
     if (command.epoch == epoch_) reactions_.Applied(command, now);
@@ -313,11 +317,12 @@ void WorldLoop::SendEvent(const WorldEvent& event) {
   if (!line.empty() && event_lines_.Take(SteadyNow())) LogInfo(line);
 }
 
-// Lockstep: the tick ends when all vehicles that still answer have answered it.
-void WorldLoop::AwaitAnswers() {
+// Lockstep: the tick ends when all vehicles that still answer have answered it. Vehicles that are
+// stopped together with the world answer no more, and a stop leaves it less than this patience.
+void WorldLoop::AwaitAnswers(const StopSignal& stop) {
   const SteadyTime give_up = SteadyNow() + kLockstepPatience;
-  while (Unanswered() && SteadyNow() < give_up) {
-    if (!link_.WaitForCommands(give_up - SteadyNow())) break;
+  while (Unanswered() && SteadyNow() < give_up && !stop.IsSet()) {
+    if (!link_.WaitForCommands(std::min(kStopPoll, give_up - SteadyNow()))) continue;
     for (const MotorCommand& command : link_.TakeCommands()) Heed(command);
   }
   for (auto& [vehicle, reception] : heard_) {

@@ -11,6 +11,7 @@
 
 #include "services/health/health_service.h"
 #include "services/link/world_link.h"
+#include "services/node/interface_check.h"
 #include "services/node/service_admin.h"
 #include "services/runtime/fault_reminder.h"
 #include "services/runtime/line_budget.h"
@@ -37,15 +38,16 @@ struct WorldLoopOptions {
   std::function<void()> on_back;  // called once it resumes; may be empty
 };
 
-enum class WorldEnd : std::uint8_t { kPassed, kFailed, kRestarts };
+// kInterfaceLost: it ends without a word, and its checkpoint stays: it is to be started again.
+enum class WorldEnd : std::uint8_t { kPassed, kFailed, kRestarts, kInterfaceLost };
 
 class WorldLoop {
  public:
   WorldLoop(const Scenario& scenario, link::WorldLink* link, ServiceAdmin* admin,
             HealthService<WorldHealth>* health, const WorldLoopOptions& options);
 
-  // Runs to the end, or until an operator's order takes a restart, or its shared memory was
-  // deleted.
+  // Runs to the end, or until an operator's order takes a restart, its shared memory was deleted or
+  // its network interface is another.
   WorldEnd Drive(const StopSignal& stop);
   // All that another process needs to resume from here.
   std::string State() const;
@@ -70,8 +72,9 @@ class WorldLoop {
     Tick stands_until = kNoTick;
   };
 
-  void Resume(const sim::FleetCheckpoint& checkpoint);
-  void StartCheckpoints();
+  // False where the checkpoint is not of this scenario: it starts a new run then.
+  bool Resume(const sim::FleetCheckpoint& checkpoint);
+  void StartCheckpoints(bool resumes);
   void RunTick();
   void Admit();
   void ReportLeftOut();
@@ -85,7 +88,7 @@ class WorldLoop {
   void Publish();
   bool MustStand(VehicleId vehicle) const;
   void SendEvent(const WorldEvent& event);
-  void AwaitAnswers();
+  void AwaitAnswers(const StopSignal& stop);
   bool Unanswered() const;
   void KeepCheckpoint();
   void NoteLastCheckpoint();
@@ -112,6 +115,8 @@ class WorldLoop {
   SteadyTime report_alone_;  // when it is next said that no discovery server answers
   std::map<VehicleId, Reception> heard_;
   std::map<VehicleId, Newcomer> newcomers_;  // that joined during the run
+  InterfaceCheck interface_check_;
+  bool interface_lost_ = false;
   RefusalLog refusal_log_;
   PacketLog packet_log_;
   std::size_t speaking_ = 0;  // of those that are in

@@ -61,8 +61,10 @@ Motion MovingObstacle::Plan(bool moving, double dt_s) const {
   return motion;
 }
 
-void MovingObstacle::Settle(const Motion& motion, double dt_s) {
-  if (motion.slide_world == Vec2{}) return;
+// A tick in which it turns may end where it started: it stands in that one, and its progress counts
+// all the same.
+void MovingObstacle::Settle(const Motion& motion, bool moving, double dt_s) {
+  if (!moving || !EverMoves()) return;
   state_.position_world = PositionAt(motion, dt_s);
   state_.progress_m = course_.Folded(state_.progress_m + speed_m_s_ * motion.stop_s);
 }

@@ -40,12 +40,13 @@ class MovingObstacle {
   // Its motion in a tick of dt_s: straight to where its course leads, cutting bends by less than
   // one tick's travel. Standing unless `moving`.
   Motion Plan(bool moving, double dt_s) const;
-  // Applies the outcome of the planned motion.
-  void Settle(const Motion& motion, double dt_s);
+  // Applies the outcome of the motion that was planned with the same `moving`.
+  void Settle(const Motion& motion, bool moving, double dt_s);
 
   const ObstacleState& State() const { return state_; }
   void Restore(const ObstacleState& state) { state_ = state; }
   bool EverMoves() const { return speed_m_s_ > 0 && !course_.IsEmpty(); }
+  double Speed() const { return EverMoves() ? speed_m_s_ : 0; }  // m/s
 
  private:
   Course course_;

@@ -6,7 +6,7 @@
 #include "services/types/math/math.h"
 #include "services/types/math/random.h"
 #include "services/types/state_hash.h"
-#include "sim_world/geometry/ticks.h"
+#include "services/types/time.h"
 
 namespace giveway::sim {
 namespace {

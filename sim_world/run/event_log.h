@@ -30,6 +30,11 @@ class EventLog {
   }
   std::span<const WorldEvent> Events() const { return events_; }
 
+  // The number of the last event, 0 before the first.
+  std::uint32_t Seq() const { return seq_; }
+  // The next event follows number `seq` of the same epoch, which an earlier process logged.
+  void ContinueFrom(std::uint32_t seq) { seq_ = seq; }
+
  private:
   WorldEpoch epoch_;
   std::uint32_t seq_ = 0;

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "sim_world/geometry/ticks.h"
+#include "services/types/time.h"
 
 namespace giveway::sim {
 namespace {
 
-constexpr Nanoseconds kSilence{1'000'000'000};
 // From joining to the first command: its endpoints must be created and discovered first.
 constexpr Nanoseconds kFirstSample{5'000'000'000};
 // From then to the removal of its body, at most: it was not driven, and its place is needed.
@@ -17,7 +16,7 @@ constexpr Nanoseconds kNeverSpoke{5'000'000'000};
 }  // namespace
 
 LivenessMonitor::LivenessMonitor(const Scenario& scenario)
-    : silence_ticks_(TicksCovering(kSilence, scenario.tick_period)),
+    : silence_ticks_(TicksCovering(SilenceIn(scenario.tick_period), scenario.tick_period)),
       removal_ticks_(TicksCovering(FromSeconds(scenario.remove_after_s), scenario.tick_period)),
       first_sample_ticks_(TicksCovering(kFirstSample, scenario.tick_period)),
       never_spoke_ticks_(

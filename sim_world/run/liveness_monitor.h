@@ -31,8 +31,8 @@ class LivenessMonitor {
   void Heard(VehicleId vehicle, Tick tick);
   bool IsSilent(VehicleId vehicle) const;
   // True if no process seems to run the vehicle at `tick`, also before the start: unheard for a
-  // second; for five if it has joined and not yet been heard, because its endpoints must be
-  // discovered first.
+  // second and three ticks; for five seconds if it has joined and not yet been heard, because its
+  // endpoints must be discovered first.
   bool IsAbandoned(VehicleId vehicle, Tick tick) const;
 
   // The next vehicle that has been unheard for so long at `tick`, now silent; kNoVehicle when none.

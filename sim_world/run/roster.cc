@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "services/types/check.h"
+#include "services/types/fleet_limits.h"
 
 namespace giveway::sim {
 
@@ -44,6 +45,7 @@ RosterEntry Roster::AdmitTo(Slot* slot, const JoinRequest& request, const SlotQu
   if (!ask.is_free(OptionsOf(*slot))) {
     return Refuse(request, "the start place of " + id + " is not free", true);
   }
+  if (!slot->taken && IsFull()) return Refuse(request, "the fleet is full", true);
   slot->taken = true;
   slot->session = request.session;
   return Accept(*slot);
@@ -51,7 +53,7 @@ RosterEntry Roster::AdmitTo(Slot* slot, const JoinRequest& request, const SlotQu
 
 RosterEntry Roster::AdmitBySpawn(VehicleId vehicle, const JoinRequest& request,
                                  const SlotQuestions& ask) {
-  if (slots_.size() >= kMaxSlots) return Refuse(request, "the fleet is full", true);
+  if (IsFull()) return Refuse(request, "the fleet is full", true);
   for (std::uint32_t spawn = 1; spawn <= spawns_.size(); ++spawn) {
     const Slot slot{vehicle, spawn, true, request.session};
     if (IsPatrolled(spawn) || !ask.is_free(OptionsOf(slot))) continue;
@@ -59,6 +61,11 @@ RosterEntry Roster::AdmitBySpawn(VehicleId vehicle, const JoinRequest& request,
     return Accept(*slots_.insert(at, slot));
   }
   return Refuse(request, "no start place is free", true);
+}
+
+// Places that the scenario names, and that no session has, are not vehicles yet.
+bool Roster::IsFull() const {
+  return open_ && std::ranges::count_if(slots_, &Slot::taken) >= kMaxOpenFleet;
 }
 
 // A vehicle on a looping route returns to its start: another one must not start there.

@@ -32,9 +32,6 @@ struct SlotQuestions {
 
 class Roster {
  public:
-  // The most of an open fleet at any one time.
-  static constexpr std::size_t kMaxSlots = 1024;
-
   Roster(const Scenario& scenario, WorldEpoch epoch);
 
   // Accepted with id and start pose; or `waiting` with the reason, if a slot may still become free;
@@ -56,6 +53,7 @@ class Roster {
 
  private:
   bool IsNamed(VehicleId vehicle) const;
+  bool IsFull() const;
   Slot* Find(VehicleId vehicle);
   RosterEntry AdmitAny(const JoinRequest& request, const SlotQuestions& ask);
   RosterEntry AdmitTo(Slot* slot, const JoinRequest& request, const SlotQuestions& ask);

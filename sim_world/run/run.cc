@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "services/types/check.h"
-#include "sim_world/geometry/ticks.h"
+#include "services/types/time.h"
 
 namespace giveway::sim {
 namespace {
@@ -58,7 +58,7 @@ void Run::Leave(VehicleId vehicle) {
   if (BodyOf(vehicle) == nullptr) return;
   Announce(EventKind::kLeft, vehicle);
   TakeAway(vehicle);
-  if (!open_ && state_ == RunState::kRunning) End("vehicle_left");
+  if (!open_ && started_) End("vehicle_left");  // also while a resumed run waits
 }
 
 void Run::Announce(EventKind kind, VehicleId vehicle) {
@@ -138,7 +138,11 @@ void Run::Advance(std::span<const MotorCommand> commands) {
   log_.BeginTick(world_.Now(), TimeSeconds());
   for (WorldEvent& event : comings_and_goings_) log_.Add(std::move(event));
   comings_and_goings_.clear();
-  if (running) Observe();
+  if (running) {
+    Observe();
+  } else if (state_ != RunState::kEnded) {
+    LogContacts(world_.NewContacts(), &log_);  // of bodies that still brake: they count, too
+  }
   if (state_ != RunState::kEnded) CheckEnd();
   Publish(running);
 }
@@ -336,6 +340,7 @@ RunCheckpoint Run::Save() const {
   return {.epoch = epoch_,
           .started = started_,
           .ticks_run = ticks_run_,
+          .event_seq = log_.Seq(),
           .faults = {faults_.States().begin(), faults_.States().end()},
           .world_faults = world_faults_.Save(),
           .tracks = {evaluator_.Tracks().begin(), evaluator_.Tracks().end()},
@@ -350,6 +355,8 @@ bool Run::Restore(const RunCheckpoint& checkpoint, std::span<const VehicleOption
   evaluator_.Restore(checkpoint.tracks);
   liveness_.Restore(checkpoint.liveness);
   for (const PlannedFault& fault : faults_.Lasting()) signals_.Fail(fault.signal, fault.kind);
+  // A world that restarts itself keeps its epoch: observers drop the numbers they have had in it.
+  if (checkpoint.epoch == epoch_) log_.ContinueFrom(checkpoint.event_seq);
   started_ = checkpoint.started;
   ticks_run_ = checkpoint.ticks_run;
   return true;

@@ -50,7 +50,8 @@ class Run {
   // A vehicle in the run asks for its place with the same session: its process has restarted
   // itself, and its new endpoints must be discovered before it is received again.
   void AsksAgain(VehicleId vehicle);
-  // The vehicle sent a leave notice: its body is removed. Ends a closed run in progress.
+  // The vehicle sent a leave notice: its body is removed. Ends a closed run that has started, also
+  // one that was resumed and waits.
   void Leave(VehicleId vehicle);
   bool EveryoneJoined() const;
   // The start signal: from the next tick on bodies move and time counts.
@@ -105,7 +106,8 @@ class Run {
   // True if no process runs the vehicle any more, or not yet.
   bool IsAbandoned(VehicleId vehicle) const { return liveness_.IsAbandoned(vehicle, Now()); }
 
-  // Everything that a run of the same scenario in a new epoch needs to continue from here.
+  // Everything that a run of the same scenario, in this epoch or a new one, needs to continue from
+  // here.
   RunCheckpoint Save() const;
   // Continues from there, paused: bodies brake and time stands still until Start. `joined` are the
   // vehicles in the checkpoint that are not the scenario's. False if the checkpoint is not of this

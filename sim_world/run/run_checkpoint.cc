@@ -15,7 +15,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are kept as they lie in memory");
 
-constexpr std::string_view kMagic = "giveway-world-5\n";  // the number counts formats
+constexpr std::string_view kMagic = "giveway-world-6\n";  // the number counts formats
 
 template <typename T>
 concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -134,7 +134,8 @@ void Visit(Archive& archive, MotorCommand& command) {
 
 template <typename Archive>
 void Visit(Archive& archive, BodyState& body) {
-  archive(body.vehicle, body.world_from_body, body.wheels, body.counted, body.command);
+  archive(body.vehicle, body.world_from_body, body.wheels, body.counted, body.command,
+          body.present);
 }
 
 template <typename Archive>
@@ -201,8 +202,8 @@ void Visit(Archive& archive, WorldFaults::State& fault) {
 
 template <typename Archive>
 void Visit(Archive& archive, RunCheckpoint& run) {
-  archive(run.epoch, run.started, run.ticks_run, run.faults, run.world_faults, run.tracks,
-          run.liveness, run.world);
+  archive(run.epoch, run.started, run.ticks_run, run.event_seq, run.faults, run.world_faults,
+          run.tracks, run.liveness, run.world);
 }
 
 template <typename Archive>

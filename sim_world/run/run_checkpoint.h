@@ -22,6 +22,7 @@ struct RunCheckpoint {
   WorldEpoch epoch = kNoEpoch;  // the one it was taken in
   bool started = false;
   std::uint32_t ticks_run = 0;
+  std::uint32_t event_seq = 0;                   // of the last event in that epoch
   std::vector<FaultPlan::State> faults;          // the scenario's
   std::vector<WorldFaults::State> world_faults;  // of a schedule, active
   std::vector<RunEvaluator::Track> tracks;

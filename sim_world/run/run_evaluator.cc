@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim_world/geometry/ticks.h"
+#include "services/types/time.h"
 
 namespace giveway::sim {
 namespace {
@@ -12,9 +12,35 @@ constexpr double kStandstill_m_s = 0.01;
 constexpr Nanoseconds kHaltTime{500'000'000};
 constexpr std::size_t kMostTracks = 2048;
 
+// What a vehicle touched that is no vehicle.
+const char* TextOf(Touched touched) {
+  switch (touched) {
+    case Touched::kWall:
+      return "wall";
+    case Touched::kObstacle:
+      return "obstacle";
+    case Touched::kDoor:
+      return "door";
+    case Touched::kVehicle:
+      break;
+  }
+  return "";
+}
+
 bool Stands(const Body& body) { return std::abs(body.ForwardSpeed()) < kStandstill_m_s; }
 
 }  // namespace
+
+void LogContacts(std::span<const Contact> contacts, EventLog* log) {
+  for (const Contact& contact : contacts) {
+    log->Add({.kind = EventKind::kContact,
+              .vehicle = contact.vehicle,
+              .other = contact.other,
+              .position_world = contact.position_world,
+              .other_position_world = contact.other_position_world,
+              .text = TextOf(contact.touched)});
+  }
+}
 
 RunEvaluator::RunEvaluator(const Scenario& scenario)
     : halt_ticks_(TicksCovering(kHaltTime, scenario.tick_period)) {
@@ -25,13 +51,7 @@ RunEvaluator::RunEvaluator(const Scenario& scenario)
 
 void RunEvaluator::Observe(double time_s, std::span<const Body> bodies,
                            std::span<const Contact> contacts, EventLog* log) {
-  for (const Contact& contact : contacts) {
-    log->Add({.kind = EventKind::kContact,
-              .vehicle = contact.vehicle,
-              .other = contact.other,
-              .position_world = contact.position_world,
-              .other_position_world = contact.other_position_world});
-  }
+  LogContacts(contacts, log);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     Track& track = TrackOf(i, bodies[i].vehicle);
     if (!bodies[i].present) continue;

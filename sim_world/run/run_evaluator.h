@@ -21,6 +21,9 @@
 
 namespace giveway::sim {
 
+// An event for each.
+void LogContacts(std::span<const Contact> contacts, EventLog* log);
+
 class RunEvaluator {
  public:
   explicit RunEvaluator(const Scenario& scenario);

@@ -28,18 +28,19 @@ Sonar::Sonar(const SonarModel& model, std::uint32_t seed, Nanoseconds tick_perio
       seed_(seed),
       schedule_(model.slot, tick_period, seed) {}
 
-void Sonar::Sense(Tick tick, const InstantBefore& instant_before, const ParallelFor& parallel) {
+void Sonar::Sense(const SonarTick& tick, const InstantBefore& instant_before,
+                  const ParallelFor& parallel) {
   if (model_.tier == SonarTier::kIdeal || model_.tier == SonarTier::kTypical) {
     SenseAtTick(tick, instant_before, parallel);
     return;
   }
-  const SlotRange slots = schedule_.StartingIn(tick);
+  const SlotRange slots = schedule_.StartingIn(tick.slots);
   for (std::uint64_t slot = slots.first; slot < slots.end; ++slot) {
     SenseAtSlot(slot, tick, instant_before, parallel);
   }
 }
 
-void Sonar::SenseAtTick(Tick tick, const InstantBefore& instant_before,
+void Sonar::SenseAtTick(const SonarTick& tick, const InstantBefore& instant_before,
                         const ParallelFor& parallel) {
   const SonarInstant instant = instant_before(0);
   const auto read = [&](std::size_t begin, std::size_t end) {
@@ -48,7 +49,7 @@ void Sonar::SenseAtTick(Tick tick, const InstantBefore& instant_before,
   parallel(instant.subjects.size(), std::ref(read));  // a reference, so that nothing is allocated
 }
 
-void Sonar::ReadAll(const Scene& scene, Tick tick, const SonarSubject& subject) const {
+void Sonar::ReadAll(const Scene& scene, const SonarTick& tick, const SonarSubject& subject) const {
   const SonarRing& ring = *subject.ring;
   Lanes range_m = ring.Hear(scene, subject.world_from_body, subject.owner, incidence_);
   if (edge_reach_m_ > 0) {
@@ -63,15 +64,15 @@ void Sonar::ReadAll(const Scene& scene, Tick tick, const SonarSubject& subject) 
     }
     if (model_.tier != SonarTier::kIdeal) {
       range_m.of[i] = Measured(range_m.of[i], model_, ring.MaxRange(),
-                               FiringRandom(seed_, subject.vehicle, Number(tick), i));
+                               FiringRandom(seed_, subject.vehicle, Number(tick.draws), i));
     }
-    reading = ReadingOf(range_m.of[i], tick);
+    reading = ReadingOf(range_m.of[i], tick.now);
   }
 }
 
-void Sonar::SenseAtSlot(std::uint64_t slot, Tick tick, const InstantBefore& instant_before,
-                        const ParallelFor& parallel) {
-  const SonarInstant instant = instant_before(schedule_.StartsBefore_s(slot, tick));
+void Sonar::SenseAtSlot(std::uint64_t slot, const SonarTick& tick,
+                        const InstantBefore& instant_before, const ParallelFor& parallel) {
+  const SonarInstant instant = instant_before(schedule_.StartsBefore_s(slot, tick.slots));
   if (model_.tier == SonarTier::kCrosstalk) {
     crosstalk_.Clear();
     for (const SonarSubject& subject : instant.subjects) {
@@ -87,7 +88,8 @@ void Sonar::SenseAtSlot(std::uint64_t slot, Tick tick, const InstantBefore& inst
   parallel(instant.subjects.size(), std::ref(fire));
 }
 
-void Sonar::Fire(std::uint64_t slot, Tick tick, const SonarInstant& instant, std::size_t i) const {
+void Sonar::Fire(std::uint64_t slot, const SonarTick& tick, const SonarInstant& instant,
+                 std::size_t i) const {
   const Scene& scene = *instant.scene;
   const SonarSubject& subject = instant.subjects[i];
   const SonarRing& ring = *subject.ring;
@@ -112,7 +114,7 @@ void Sonar::Fire(std::uint64_t slot, Tick tick, const SonarInstant& instant, std
     range_m = Measured(range_m, model_, ring.MaxRange(),
                        FiringRandom(seed_, subject.vehicle, slot, transducer));
     subject.state->listening[array] = {
-        .reading = ReadingOf(range_m, tick, schedule_.StartsBefore_s(slot, tick)),
+        .reading = ReadingOf(range_m, tick.now, schedule_.StartsBefore_s(slot, tick.slots)),
         .transducer = static_cast<std::uint32_t>(transducer)};
   }
 }

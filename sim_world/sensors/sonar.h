@@ -2,12 +2,12 @@
 // other: ideal (exact, every tick), typical (blind zone, noise, incidence cut-off, drop-outs; edges
 // and corners answer too, sonar_corners.h), p3dx (one transducer of each array at a time, slot by
 // slot) and crosstalk (others' pulses are heard).
-// Every random number depends only on seed, vehicle, time and transducer, so neither the order of
-// the vehicles nor the number of threads changes the result.
+// Every random number depends only on seed, vehicle, time since the start and transducer, so
+// neither the order of the vehicles nor the number of threads changes the result.
 //
 // The world calls Sense once a tick, after the bodies have moved:
 //
-//   sonar_.Sense(now_, [this](double before_s) { return InstantBefore(before_s); }, parallel);
+//   sonar_.Sense(tick, [this](double before_s) { return InstantBefore(before_s); }, parallel);
 //
 // where InstantBefore puts every shape where it was `before_s` ahead of this tick's end, indexes
 // the scene and lists the vehicles that sense with their poses of that moment. It is asked once
@@ -59,20 +59,35 @@ struct SonarInstant {
   std::span<const SonarSubject> subjects;
 };
 
+// A tick as the ultrasonics count it. Whatever is drawn depends on the ticks since the start
+// signal, never on how long the world waited for that.
+struct SonarTick {
+  Tick now = kNoTick;    // readings say when they were fired by it
+  Tick draws = kNoTick;  // by which the draws of a tick are numbered, where all fire every tick
+  Tick slots = kNoTick;  // by which slots are numbered
+};
+
 class Sonar {
  public:
   Sonar(const SonarModel& model, std::uint32_t seed, Nanoseconds tick_period);
 
   using InstantBefore = std::function<SonarInstant(double before_s)>;
-  void Sense(Tick tick, const InstantBefore& instant_before,
+  void Sense(const SonarTick& tick, const InstantBefore& instant_before,
              const ParallelFor& parallel = OnThisThread);
+  // The same in a run that started with its first tick.
+  void Sense(Tick tick, const InstantBefore& instant_before,
+             const ParallelFor& parallel = OnThisThread) {
+    Sense(SonarTick{tick, tick, tick}, instant_before, parallel);
+  }
 
  private:
-  void SenseAtTick(Tick tick, const InstantBefore& instant_before, const ParallelFor& parallel);
-  void SenseAtSlot(std::uint64_t slot, Tick tick, const InstantBefore& instant_before,
+  void SenseAtTick(const SonarTick& tick, const InstantBefore& instant_before,
                    const ParallelFor& parallel);
-  void ReadAll(const Scene& scene, Tick tick, const SonarSubject& subject) const;
-  void Fire(std::uint64_t slot, Tick tick, const SonarInstant& instant, std::size_t i) const;
+  void SenseAtSlot(std::uint64_t slot, const SonarTick& tick, const InstantBefore& instant_before,
+                   const ParallelFor& parallel);
+  void ReadAll(const Scene& scene, const SonarTick& tick, const SonarSubject& subject) const;
+  void Fire(std::uint64_t slot, const SonarTick& tick, const SonarInstant& instant,
+            std::size_t i) const;
 
   SonarModel model_;
   Incidence incidence_;

@@ -1,6 +1,6 @@
 // Which transducer fires when, in the tiers that keep the real schedule: time is cut into slots
-// from tick 0 on; in each, one transducer of each array fires at its start and listens to its end.
-// Vehicles go round in the same order, each from a place of its own.
+// from tick 0 on, which the caller chooses; in each, one transducer of each array fires at its
+// start and listens to its end. Vehicles go round in the same order, each from a place of its own.
 #pragma once
 
 #include <array>

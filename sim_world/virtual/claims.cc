@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "services/types/math/math.h"
-#include "sim_world/geometry/ticks.h"
+#include "services/types/time.h"
 
 namespace giveway::sim {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "services/types/check.h"
 #include "services/types/math/math.h"
-#include "sim_world/geometry/ticks.h"
+#include "services/types/time.h"
 
 namespace giveway::sim {
 namespace {
@@ -77,7 +77,8 @@ Invariants::Track Invariants::TrackOf(const VehicleOptions& options) {
           .deceleration_m_s2 = options.profile.deceleration_m_s2,
           .acceleration_m_s2 = options.profile.acceleration_m_s2,
           .has_goal = HasGoal(options),
-          .last_position_world = options.start_world.position_world,
+          .is_box = options.profile.shape == BodyShape::kBox,
+          .last_world = options.start_world,
           .on_route = !HasGoal(options) && options.route.count > 0,
           .stands_world = options.start_world.position_world};
 }
@@ -140,15 +141,17 @@ void Invariants::Observe(Tick tick, double time_s, std::span<const Observed> veh
                                                     now.position_world};
     if (now.present) JudgeStaleness(tick, now, &track);
     if (now.present) JudgePose(tick, now, &track);
-    track.last_forward_m_s = now.forward_m_s;
-    track.last_position_world = now.position_world;
+    track.last_speed_m_s = track.is_box ? now.rim_m_s : Magnitude(now.forward_m_s);
+    track.last_world = {now.position_world, now.heading_rad};
   }
   for (std::size_t i = 0; i < vehicles.size(); ++i) JudgeOrder(tick, vehicles[i], &tracks_[i]);
   JudgeCircles(tick, vehicles);
   JudgeAllHalted(tick, vehicles);
   JudgeLightsAndProgress(tick, time_s, vehicles);
   JudgeStanding(tick, vehicles);
-  JudgeBodies(tick, time_s, vehicles, around);
+  if (limits_.counts_others || (limits_.required & ~RequiredInvariants()).any()) {
+    JudgeBodies(tick, time_s, vehicles, around);
+  }
 }
 
 void Invariants::NoteRestart() {
@@ -162,30 +165,36 @@ void Invariants::NoteGap(Tick tick) {
   circle_ticks_ = 0;
   halted_ticks_ = 0;
   keys_known_at_ = Number(tick) + limits_.key_age_ticks;
+  for (Track& track : tracks_) track.stale = false;  // it may have driven meanwhile
   if (tick > last_tick_) progress_.Skip(TicksBetween(last_tick_, tick) - 1);
 }
 
-// Of two that touch the one that was driving is at fault, of two that drove the faster.
+// Of two that touch the one that was driving is at fault, of two that drove the faster. A box
+// drives as fast as its faster wheel: its corners move too where it turns on the spot.
 VehicleId Invariants::MoreAtFault(const WorldEvent& contact) const {
   const std::uint32_t a = IndexOf(contact.vehicle);
   const std::uint32_t b = IndexOf(contact.other);
   if (b == kUnknown) return contact.vehicle;
   if (a == kUnknown) return contact.other;
-  const bool second =
-      Magnitude(tracks_[b].last_forward_m_s) > Magnitude(tracks_[a].last_forward_m_s);
+  const bool second = tracks_[b].last_speed_m_s > tracks_[a].last_speed_m_s;
   return second ? contact.other : contact.vehicle;
 }
 
-// A body that turns on the spot touches nothing, so in every contact a vehicle drove into the
-// other; or a moving obstacle, which stops on contact alone, drove into one that stood.
+// In the last tick and since.
+bool Invariants::Stood(const Track& track, const Observed& now) {
+  const bool turned = track.is_box && track.last_world.heading_rad != now.heading_rad;
+  return track.last_speed_m_s == 0 && !turned &&
+         track.last_world.position_world == now.position_world;
+}
+
+// A disc that turns on the spot touches nothing, so in every contact a vehicle drove into the
+// other, or a box turned a corner into it; or a moving obstacle, which stops on contact alone,
+// drove into one that stood.
 void Invariants::JudgeContact(const WorldEvent& event, std::span<const Observed> vehicles) {
   const VehicleId at_fault = MoreAtFault(event);
   const std::uint32_t index = IndexOf(at_fault);
   const bool with_obstacle = IndexOf(event.vehicle) == kUnknown || IndexOf(event.other) == kUnknown;
-  if (with_obstacle && index != kUnknown && tracks_[index].last_forward_m_s == 0 &&
-      tracks_[index].last_position_world == vehicles[index].position_world) {
-    return;
-  }
+  if (with_obstacle && index != kUnknown && Stood(tracks_[index], vehicles[index])) return;
   Report(Invariant::kContact, event.tick, at_fault,
          at_fault == event.vehicle ? event.other : event.vehicle);
 }

@@ -80,6 +80,7 @@ struct InvariantLimits {
   double clearance_m = 0.05;  // kClearance: what vehicles keep from claims (vehicle/situation)
   std::vector<DueTime> due;   // kDelay, ascending; a vehicle not in it may take any time
   InvariantSet required = RequiredInvariants();
+  bool counts_others = true;  // also those that are not required
 };
 
 class Invariants {
@@ -128,8 +129,9 @@ class Invariants {
     double deceleration_m_s2 = 0;
     double acceleration_m_s2 = 0;
     bool has_goal = false;
-    double last_forward_m_s = 0;
-    Vec2 last_position_world;
+    bool is_box = false;
+    double last_speed_m_s = 0;  // of its shell, as far as it decides who is at fault
+    Pose last_world;
     bool stale = false;
     std::uint32_t stale_ticks = 0;
     double stale_limit_m_s = 0;  // how fast the faster wheel may still roll
@@ -149,6 +151,7 @@ class Invariants {
   };
 
   static Track TrackOf(const VehicleOptions& options);
+  static bool Stood(const Track& track, const Observed& now);
   void NoteGap(Tick tick);
   void Report(Invariant invariant, Tick tick, VehicleId vehicle, VehicleId other = kNoVehicle);
   void JudgeContact(const WorldEvent& event, std::span<const Observed> vehicles);

@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "services/types/math/math.h"
+#include "services/types/time.h"
 #include "sim_world/dynamics/doors.h"
-#include "sim_world/geometry/ticks.h"
 namespace giveway::sim {
 namespace {
 

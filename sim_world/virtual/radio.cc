@@ -4,8 +4,8 @@
 #include <array>
 
 #include "services/types/check.h"
+#include "services/types/time.h"
 #include "services/vehicle/estimation/beacon_check.h"
-#include "sim_world/geometry/ticks.h"
 
 namespace giveway::sim {
 namespace {
@@ -67,8 +67,10 @@ Radio::Radio(const Scenario& scenario, const RadioSettings& settings, std::uint6
       kept_ticks_(most_ticks_ + 1),
       varies_(settings.jitter.count() > 0 || settings.reorder > 0 || settings.duplicate > 0),
       draws_(varies_ || settings.loss > 0 || settings.burst.enter > 0),
-      deadline_ticks_(TicksCovering(kDeadlineRequested, period_)),
-      lease_ticks_(TicksCovering(kLivelinessLease, period_)),
+      deadline_(std::max(kDeadlineRequested, kDeadlinePeriods * period_)),
+      lease_(std::max(kLivelinessLease, kLeasePeriods * period_)),
+      deadline_ticks_(TicksCovering(deadline_, period_)),
+      lease_ticks_(TicksCovering(lease_, period_)),
       ids_(IdsOf(scenario)),
       history_(count_ * kept_ticks_),
       pairs_(count_ * count_),
@@ -269,10 +271,10 @@ void Radio::NoticeSilence(std::size_t sender, Pair* pair, std::vector<QosEvent>*
   };
   if (silent >= deadline_ticks_ && !pair->deadline_missed) {
     pair->deadline_missed = true;
-    tell(QosEventKind::kDeadlineMissed, kDeadlineRequested);
+    tell(QosEventKind::kDeadlineMissed, deadline_);
   }
   if (silent < lease_ticks_) return;
-  tell(QosEventKind::kLivelinessLost, kLivelinessLease);
+  tell(QosEventKind::kLivelinessLost, lease_);
   pair->listed = false;
 }
 

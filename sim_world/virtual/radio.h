@@ -17,9 +17,12 @@
 
 namespace giveway::sim {
 
-// The default profile's guarantees of the beacon topic, as the reader sees them.
+// The guarantees of the beacon topic, as the reader sees them: the default profile's, and with
+// ticks longer than its 50 ms no fewer periods. So a single lost beacon is no missed deadline.
 inline constexpr Nanoseconds kDeadlineRequested{150'000'000};
+inline constexpr std::int64_t kDeadlinePeriods = 3;
 inline constexpr Nanoseconds kLivelinessLease{250'000'000};
+inline constexpr std::int64_t kLeasePeriods = 5;
 
 // A vehicle's place at the tick of reception.
 struct RadioPlace {
@@ -90,6 +93,8 @@ class Radio {
   std::uint32_t kept_ticks_;  // of history
   bool varies_;               // beacons differ in transit time
   bool draws_;                // anything is random
+  Nanoseconds deadline_;
+  Nanoseconds lease_;
   std::uint32_t deadline_ticks_;
   std::uint32_t lease_ticks_;
   std::vector<VehicleId> ids_;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "services/types/math/random.h"
-#include "sim_world/geometry/ticks.h"
+#include "services/types/time.h"
 
 namespace giveway::sim {
 namespace {

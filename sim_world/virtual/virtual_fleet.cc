@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "services/types/check.h"
-#include "sim_world/geometry/ticks.h"
+#include "services/types/time.h"
 #include "sim_world/virtual/virtual_faults.h"
 
 namespace giveway::sim {

@@ -89,6 +89,10 @@ struct VirtualPlan {
   faults::Schedule schedule;
   // Of the invariants that are otherwise only counted: bit i for invariant i.
   std::uint32_t also_required = 0;
+  // Of a place made by a generator, or what was left of one: how long it is where only one can be.
+  // By it vehicles are due, and of those that share a goal one must arrive. Absent: the scenario
+  // states what it expects.
+  std::optional<double> through_m;
 };
 
 }  // namespace giveway::sim

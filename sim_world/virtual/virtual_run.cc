@@ -4,9 +4,8 @@
 
 #include "services/types/math/math.h"
 #include "services/types/state_hash.h"
-#include "sim_world/geometry/ticks.h"
+#include "services/types/time.h"
 #include "sim_world/virtual/arriving.h"
-#include "sim_world/virtual/generators.h"
 #include "sim_world/virtual/virtual_faults.h"
 
 namespace giveway::sim {
@@ -134,10 +133,9 @@ InvariantLimits LimitsFor(const Scenario& scenario, const VirtualPlan& plan) {
     late = std::max(late, radio.delay + radio.jitter + rule.delay);
   }
   InvariantLimits limits = LimitsFor(scenario, TicksCovering(late, scenario.tick_period), loses);
-  // A file states what it expects; a generator knows which vehicles can arrive, and in what time.
-  if (const Generator* generator = FindGenerator(scenario.name)) {
+  if (plan.through_m) {
     limits.one_of = WhoCanArrive(scenario).one_of;
-    limits.due = DueTimes(scenario, ThroughMetres(*generator, scenario));
+    limits.due = DueTimes(scenario, *plan.through_m);
   }
   limits.required |= InvariantSet(plan.also_required);
   return limits;

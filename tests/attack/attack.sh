@@ -28,7 +28,7 @@ FUZZ_SECONDS=${GIVEWAY_ATTACK_FUZZ_SECONDS:-6}
 MOST_KB=$((16 * 1024))
 ATTACKS=("$@")
 [[ $# -gt 0 ]] ||
-  ATTACKS=(loopback statistics fragments gaps heartbeats jumps steps strangers tokens replay flood fuzz health)
+  ATTACKS=(loopback statistics fragments gaps heartbeats jumps steps strangers endpoints tokens replay flood fuzz health)
 bad=0
 
 # The other side of a cable: a stranger, and a program of this machine that joined the fleet's group.
@@ -171,8 +171,8 @@ from_the_cable() {
   "$ATTACKER" join --source 192.0.2.1 --seconds "$((2 * SECONDS_EACH + 2))" &
   joined=$!
   sleep 1
-  from_stranger "$DOMAIN"
-  from_stranger "$((DOMAIN + 1))" >/dev/null
+  from_stranger "$DOMAIN" || code=1
+  from_stranger "$((DOMAIN + 1))" >/dev/null || code=1
   reached=$("$BIN/giveway-vehicle" --health metrics --health-port 20002 |
     awk '/^giveway_vehicle_packets_dropped_total/ {seen = 1; sum += $2} END {print seen ? sum : "no metrics"}')
   [[ $reached == 0 ]] || {
@@ -180,7 +180,7 @@ from_the_cable() {
     code=1
   }
   kill_now asked
-  wait "$joined" || true
+  wait "$joined" || code=1
   return "$code"
 }
 
@@ -191,10 +191,14 @@ health_port() {
   "$BIN/giveway-vehicle" --scenario patrol --domain "$((DOMAIN + 1))" --health-address 0.0.0.0 \
     --health-port 20001 2>"$SCRATCH/probed.log" &
   PID[probed]=$!
-  sleep 1
+  for _ in $(seq 100); do
+    timeout 2 "$BIN/giveway-vehicle" --health live --health-port 20001 >/dev/null 2>&1 && break
+    sleep 0.1
+  done
   for _ in $(seq 10); do
     # shellcheck disable=SC2016  # the inner shell expands it
-    ip netns exec stranger bash -c 'while exec 3<>/dev/tcp/192.0.2.1/20001; do
+    ip netns exec stranger bash -c 'trap "" PIPE; while :; do
+      exec 3<>/dev/tcp/192.0.2.1/20001 || { sleep 0.1; continue; }
       while printf x >&3; do sleep 0.2; done; exec 3>&-; done' 2>/dev/null &
     tricklers+=("$!")
   done
@@ -204,10 +208,11 @@ health_port() {
   tricklers+=("$!")
   sleep 0.5
   for _ in $(seq 20); do
-    timeout 0.5 "$BIN/giveway-vehicle" --health live --health-port 20001 >/dev/null 2>&1 &&
+    timeout 2 "$BIN/giveway-vehicle" --health live --health-port 20001 >/dev/null 2>&1 &&
       answered=$((answered + 1))
     sleep 0.1
   done
+  for _ in "${tricklers[@]}"; do kill -0 "$_" || code=1; done # they are still there
   kill "${tricklers[@]}" 2>/dev/null || true
   kill_now probed
   echo "probes: $answered of 20 answered"

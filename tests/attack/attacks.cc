@@ -69,10 +69,14 @@ void Statistics(const Target& target, UdpSender* sender) {
   while (!IsOver(begun, target)) SendToAll(packet, target, sender);
 }
 
+// Of samples that no type is as large as, and of such that would be taken, each time a new one.
 void Fragments(const Target& target, UdpSender* sender) {
   AsEachWriter(target, sender, [](const Heard& heard, std::uint32_t turn) {
+    const bool is_sound = heard.kind == 0x15 && turn % 2 == 0;
+    const std::int64_t number = is_sound ? NumberOf(heard) + turn : 1000 + turn;
+    const std::uint32_t sample_bytes = is_sound ? 120'000 : 4'000'000'000;
     return RtpsPacket(heard.prefix)
-        .DataFrag(heard.writer, 1000 + turn, 1, 1, 1000, 4'000'000'000, 1000, heard.reader)
+        .DataFrag(heard.writer, number, 1, 1, 1000, sample_bytes, 1000, heard.reader)
         .Bytes();
   });
 }
@@ -256,14 +260,54 @@ PacketBytes Parameter(std::uint16_t id, const std::vector<std::uint32_t>& number
   return parameter;
 }
 
-// What a participant says of a writer, with that.
-PacketBytes WriterOf(const PrefixBytes& prefix, std::int64_t number, const PacketBytes& parameter) {
-  PacketBytes payload = {0, 3, 0, 0, 0x5a, 0, 16, 0};
-  payload.insert(payload.end(), prefix.begin(), prefix.end());
-  payload.insert(payload.end(), {0, 0, 1, 3});
-  payload.insert(payload.end(), parameter.begin(), parameter.end());
-  payload.insert(payload.end(), {1, 0, 0, 0});
-  return RtpsPacket(prefix).Data(0x000003c2, number, payload, 0x000003c7).Bytes();
+// A text with its NUL, as parameters have it.
+std::vector<std::uint32_t> Text(const std::string& text) {
+  std::vector<std::uint32_t> numbers(1 + text.size() / 4 + 1);
+  numbers[0] = static_cast<std::uint32_t>(text.size() + 1);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    numbers[1 + i / 4] |= static_cast<std::uint32_t>(text[i]) << (8 * (i % 4));
+  }
+  return numbers;
+}
+
+// What a writer of beacons offers: its topic and type, vehicle 9's partition, 0.1 s of deadline and
+// 0.2 s of lease, asserted by topic. Each vehicle of the area matches it.
+PacketBytes OfBeacons() {
+  std::vector<std::uint32_t> partition = Text("main/v9");
+  partition.insert(partition.begin(), 1);
+  PacketBytes all;
+  for (const PacketBytes& parameter :
+       {Parameter(0x05, Text("fleet/beacon")), Parameter(0x07, Text("giveway::wire::Beacon")),
+        Parameter(0x29, partition), Parameter(0x23, {0, 429'496'729}),
+        Parameter(0x1b, {2, 0, 858'993'459})}) {
+    all.insert(all.end(), parameter.begin(), parameter.end());
+  }
+  return all;
+}
+
+// One participant that has writers without end, 32 a packet, to each participant by itself: of such
+// announcements none is heard by multicast.
+void Endpoints(const Target& target, UdpSender* sender) {
+  constexpr int kAPacket = 32;
+  const PrefixBytes prefix{1, 15, 68};
+  const PacketBytes of_beacons = OfBeacons();
+  const auto begun = std::chrono::steady_clock::now();
+  std::int64_t number = 0;
+  for (std::uint32_t turn = 0; !IsOver(begun, target); ++turn) {
+    if (turn % 64 == 0) {
+      const PacketBytes announcement =
+          RtpsPacket(prefix).Announcement(prefix, turn / 64 + 1).Bytes();
+      sender->Send(announcement, Group(), MulticastPort(target.domain));
+    }
+    RtpsPacket packet(prefix);
+    for (int i = 0; i < kAPacket; ++i) {
+      const auto writer = static_cast<std::uint32_t>(++number) << 8U | 0x02;
+      packet.WriterAnnouncement(prefix, writer, number, of_beacons);
+    }
+    for (std::uint32_t i = 0; i < kParticipants; ++i) {
+      sender->Send(packet.Bytes(), target.address, UnicastPort(target.domain, i, false));
+    }
+  }
 }
 
 // A stranger whose tokens, and whose writers' lists, state more than there is: CVE-2025-62599 to
@@ -284,7 +328,10 @@ void Tokens(const Target& target, UdpSender* sender) {
   const auto begun = std::chrono::steady_clock::now();
   for (std::int64_t turn = 1; !IsOver(begun, target); ++turn) {
     SendToAll(RtpsPacket(prefix).Announcement(prefix, turn).Bytes(), target, sender);
-    for (const PacketBytes& list : lists) SendToAll(WriterOf(prefix, turn, list), target, sender);
+    for (const PacketBytes& list : lists) {
+      SendToAll(RtpsPacket(prefix).WriterAnnouncement(prefix, 0x103, turn, list).Bytes(), target,
+                sender);
+    }
     for (const std::uint16_t id : {std::uint16_t{0x1001}, std::uint16_t{0x1002}}) {
       for (const std::vector<std::uint32_t>& token : tokens) {
         const PacketBytes more = Parameter(id, token);
@@ -429,14 +476,20 @@ bool TakesVehicle(const std::string& attack) {
 }
 
 const std::map<std::string, Attack>& Attacks() {
-  static const std::map<std::string, Attack> kAttacks{
-      {"flood", Flood},       {"fragments", Fragments},
-      {"fuzz", Fuzz},         {"gaps", Gaps},
-      {"jumps", Jumps},       {"heartbeats", Heartbeats},
-      {"malformed", Malform}, {"replay", Replay},
-      {"spoof", Spoof},       {"statistics", Statistics},
-      {"steps", Steps},       {"strangers", Strangers},
-      {"tokens", Tokens}};
+  static const std::map<std::string, Attack> kAttacks{{"endpoints", Endpoints},
+                                                      {"flood", Flood},
+                                                      {"fragments", Fragments},
+                                                      {"fuzz", Fuzz},
+                                                      {"gaps", Gaps},
+                                                      {"jumps", Jumps},
+                                                      {"heartbeats", Heartbeats},
+                                                      {"malformed", Malform},
+                                                      {"replay", Replay},
+                                                      {"spoof", Spoof},
+                                                      {"statistics", Statistics},
+                                                      {"steps", Steps},
+                                                      {"strangers", Strangers},
+                                                      {"tokens", Tokens}};
   return kAttacks;
 }
 

@@ -35,12 +35,12 @@ waits_after_2() { [[ $(docker inspect -f '{{.State.Status}} {{.State.ExitCode}}'
 # Ends, and is restarted ever more rarely: docker doubles the wait from 0.1 s.
 ends_with() { # WHAT PATTERN
   await "$1: says so" 10 says "$BAD" "$2"
-  await "$1: tried again" 10 restarted 3
+  await "$1: tried again" 60 restarted 3
   local before
   before=$(restarts)
   sleep 5
   [[ $(($(restarts) - before)) -le 4 ]] || fail "$1: $(($(restarts) - before)) restarts in 5 s"
-  await "$1: ended with exit code 2" 10 waits_after_2
+  await "$1: ended with exit code 2" 30 waits_after_2
 }
 
 # Stays, waits, and says why.

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# A composed fleet under faults: kill -9 of a vehicle, the world, one discovery server and both, a pause, a
-# cut network, more and fewer vehicles. No two bodies touch, and every vehicle that returns drives again
-# within five seconds (eight where its discovery servers were killed with it), without help from outside.
+# A composed fleet under faults: kill -9 of a vehicle, the world, one discovery server and both, a vehicle killed
+# while a server is stopped, a pause, a cut network, more and fewer vehicles. No two bodies touch, and every
+# vehicle that returns drives again within five seconds (eight where discovery servers went with it), without help
+# from outside.
 #
 #   bash tests/containers/fault_drills.sh multicast|servers
 source "$(dirname "${BASH_SOURCE[0]}")/../support/composed_fleet.sh"
@@ -84,6 +85,14 @@ serves_again() { # CONTAINER BEFORE
   now=$(server_in "$1")
   [[ -n $now && $now != "$2" ]] && grep -q ":2E23 " "/proc/$now/net/udp" 2>/dev/null
 }
+# The name server has no name for a container that does not run: a vehicle that then started waited for ever.
+drill_server_stopped() {
+  local server
+  server=$(first_of discovery-1)
+  docker stop -t 2 "$server" >/dev/null
+  drill_vehicle_crash "vehicle killed while a server is stopped" "$SERVERS_LIMIT_S"
+  docker start "$server" >/dev/null
+}
 # Longer than any participant lease, which is 10 s. A vehicle that loses a peer drives on, by its sensors.
 drive_together() { all_drive "$VEHICLES" && all_matched "$VEHICLES"; }
 drill_servers_away() {
@@ -132,7 +141,7 @@ drill_unplug() {
 drill_scale() {
   VEHICLES=8
   up 8
-  await "scaled up: all 8 drive" 10 all_drive 8
+  await "scaled up: all 8 drive" 30 all_drive 8
   VEHICLES=3
   up 3
   await "scaled down: all 3 drive" "$LIMIT_S" all_drive 3
@@ -160,6 +169,7 @@ drill_cut
 drill_scale
 drill_unplug
 if [[ $1 == servers ]]; then
+  drill_server_stopped
   drill_servers_crash
   drill_servers_away
 fi

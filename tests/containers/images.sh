@@ -36,7 +36,7 @@ docker run --rm --read-only --network none --entrypoint fleetctl giveway-tools \
   virtual crossing --vehicles 2 --seeds 1..2 >/dev/null || fail "fleetctl virtual"
 # The program it starts gets neither the image's health port nor an id.
 docker run --rm --read-only --tmpfs /tmp --cap-drop ALL --network none -e GIVEWAY_ID=2 giveway-tools \
-  run intersection_yield --json >/dev/null || fail "fleetctl run in the image of fleetctl"
+  run four_way --json >/dev/null || fail "fleetctl run in the image of fleetctl"
 docker run --rm --read-only --network none --entrypoint fleetctl giveway-tools qos check default \
   >/dev/null || fail "fleetctl does not find its profile sets"
 [[ $failures -eq 0 ]]

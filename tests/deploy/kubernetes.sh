@@ -12,7 +12,7 @@ if [[ ${1:-} == --root ]]; then
   shift 2
 fi
 overlays=("$@")
-[[ ${#overlays[@]} -gt 0 ]] || overlays=(2 20 200 observed campaign)
+[[ ${#overlays[@]} -gt 0 ]] || overlays=(2 20 200 observed sealed campaign)
 
 die() {
   printf 'error: %s\n' "$*" >&2

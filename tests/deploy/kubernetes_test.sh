@@ -55,7 +55,7 @@ expect() {
 }
 
 lay_out "$work/clean"
-for overlay in campaign 20; do
+for overlay in campaign sealed 20; do
   clean=$(failed_checks "$work/clean")
   if [[ -n $clean ]]; then
     printf 'FAILED  the clean tree is clean\n    by: %s\n' "$clean"
@@ -138,6 +138,13 @@ expect "places scenario_as_written" "a place on top of another" config/scenarios
 overlay=200
 expect planned_for "two hundred with what two take" $O/200/kustomization.yaml 's/requests: \{cpu: 150m/requests: {cpu: 20m/'
 expect fleet "two hundred on as few nodes as will hold them" $O/200/kustomization.yaml '/topologySpreadConstraints/,/component: vehicle/d'
+
+# Orders.
+overlay=sealed
+K=config/deploy/kubernetes/admin_key/kustomization.yaml
+expect orders_sealed "no key where an operator works" $K '/name: giveway-discovery\}/,$d'
+expect orders_sealed "a component that is left out" $O/sealed/kustomization.yaml '/^components:/,$d'
+expect files_mounted "a key that is not where it is said to be" $K 's/mountPath: .*admin,/mountPath: \/etc\/giveway\/keys,/'
 
 # Campaigns.
 overlay=campaign

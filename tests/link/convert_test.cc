@@ -384,11 +384,12 @@ TEST_F(StatusOfBefore, IsTheStartOfOneOfToday) {
   EXPECT_NE(Bytes(Counted()).substr(kBytes - 4, 4), Bytes(plain).substr(kBytes - 4, 4));
 }
 
-TEST_F(StatusOfBefore, HasOneOfTwoLengthsAndNoOther) {
+TEST_F(StatusOfBefore, HasOneOfThreeLengthsAndNoOther) {
   const std::string bytes = Bytes(Counted());
   for (std::size_t length = 0; length < bytes.size(); ++length) {
-    EXPECT_EQ(Read(std::string_view(bytes).substr(0, length)).has_value(),
-              length == kBytes || length == BytesBeforeHeap(2))
+    EXPECT_EQ(
+        Read(std::string_view(bytes).substr(0, length)).has_value(),
+        length == kBytes || length == BytesBeforeHeap(2) || length == StatusBytesBeforeEndpoints(2))
         << length;
   }
 }
@@ -403,6 +404,10 @@ TEST_F(StatusOfBefore, IsReadWithItsAccountsAndAnUnknownHeap) {
     ASSERT_TRUE(read) << n;
     EXPECT_EQ(read->heap_bytes, std::nullopt);
     EXPECT_EQ(read->accounts, sent.accounts);
+    const auto with_heap = Read(std::string_view(bytes).substr(0, StatusBytesBeforeEndpoints(n)));
+    ASSERT_TRUE(with_heap) << n;
+    EXPECT_EQ(with_heap->heap_bytes, sent.heap_bytes);
+    EXPECT_EQ(with_heap->packets.Of(PacketDrop::kTooManyEndpoints), 0U);
     sent.accounts.Add({VehicleId{170 + n}, 171, 172, 173, 174, 175, 176, 177, 178 + n});
   }
 }
@@ -445,6 +450,20 @@ TEST(Convert, RefusesAnEnumeratorItDoesNotKnow) {
   status.last_qos_event().kind(static_cast<wire::QosEventKind>(7));
   VehicleStatus status_back;
   EXPECT_FALSE(FromWire(status, status_back));
+}
+
+// One such event stopped the page of each observer that heard it.
+TEST(Convert, RefusesEventsAndTruthsWhoseTimeOrPlaceIsNotFinite) {
+  for (const double wrong : {kNan, kInfinity, -kInfinity}) {
+    WorldEvent event;
+    EXPECT_FALSE(FromWire(ToWire(WorldEvent{.time_s = wrong}), event));
+    EXPECT_FALSE(FromWire(ToWire(WorldEvent{.position_world = {wrong, 0}}), event));
+    EXPECT_FALSE(FromWire(ToWire(WorldEvent{.other_position_world = {0, wrong}}), event));
+    Truth truth;
+    EXPECT_FALSE(FromWire(ToWire(Truth{.time_s = wrong}), truth));
+    EXPECT_FALSE(FromWire(ToWire(Truth{.world_from_body = {{wrong, 0}, 0}}), truth));
+    EXPECT_FALSE(FromWire(ToWire(Truth{.world_from_body = {{0, 0}, wrong}}), truth));
+  }
 }
 
 // Nothing between the socket and main catches what the type support throws: one malformed packet

@@ -20,7 +20,7 @@ link::LinkOptions OptionsIn(const DomainLock& domain);
 // Repeats `step` until it is true; false if it never is within the deadline. How often it is tried
 // proves nothing; that it became true does.
 bool Eventually(const std::function<bool()>& step,
-                std::chrono::milliseconds deadline = std::chrono::seconds(20));
+                std::chrono::milliseconds deadline = std::chrono::seconds(60));
 
 // Repeats `step` for as long as `duration`, every 10 ms.
 void Repeat(std::chrono::milliseconds duration, const std::function<void()>& step);

@@ -229,7 +229,7 @@ void StartRun(link::WorldLink* world, Listener* listener) {
 TEST(Impaired, InABlackoutAfterTheStartHearsNothingAndThenAgain) {
   const DomainLock domain;
   ImpairmentRule rule{.from = ImpairedSender::kVehicles};
-  rule.blackouts = {{0, 0.7}};
+  rule.blackouts = {{0, 3}};
   Listener listener(domain, {rule});
   Beaconing sender(OptionsIn(domain), kThree);
   link::WorldLink world(OptionsIn(domain));
@@ -262,7 +262,7 @@ TEST(Impaired, ByARuleThatHoldsForATimeHearsNothingThenAndAgainAfterIt) {
   const DomainLock domain;
   ImpairmentRule rule{.from = ImpairedSender::kVehicles, .loss = 1};
   rule.from_s = 0;
-  rule.to_s = 0.7;
+  rule.to_s = 3;
   Listener listener(domain, {rule});
   Beaconing sender(OptionsIn(domain), kThree);
   link::WorldLink world(OptionsIn(domain));

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/support/no_descriptors.h"
+
 namespace giveway::link {
 namespace {
 
@@ -52,6 +54,26 @@ TEST(InterfaceWatch, WaitsForOneThatIsBackButNotUpYet) {
 TEST(InterfaceWatch, KeepsToTheInterfaceThatIsMeant) {
   EXPECT_THAT(ChangeOf("lo", {kLo, kEth}, {kLo, Of("eth0", "172.18.0.4", 9)}), IsEmpty());
   EXPECT_THAT(ChangeOf("eth0", {kLo, kEth}, {kLo, Of("eth1", "10.0.0.2", 9)}), IsEmpty());
+}
+
+// Regression: one whose index could not be asked for was taken for another device.
+TEST(InterfaceWatch, TakesAnIndexThatIsNotKnownForNoDifference) {
+  const Interface unknown = Of("eth0", "172.18.0.3", 0);
+  for (const char* meant : {"any", "eth0", "172.18.0.3"}) {
+    EXPECT_THAT(ChangeOf(meant, {kLo, kEth}, {kLo, unknown}), IsEmpty()) << meant;
+    EXPECT_THAT(ChangeOf(meant, {kLo, unknown}, {kLo, kEth}), IsEmpty()) << meant;
+  }
+}
+
+// Regression: a service without a descriptor left ended, "cannot list the network interfaces".
+TEST(InterfaceWatch, SaysNothingWhileTheInterfacesCannotBeListed) {
+  const InterfaceWatch watch("any");
+  std::string change = "not asked";
+  {
+    const test::NoDescriptors none;
+    change = watch.Change();
+  }
+  EXPECT_THAT(change, IsEmpty());
 }
 
 }  // namespace

@@ -24,10 +24,14 @@ constexpr std::array kDurabilities = {"VOLATILE", "TRANSIENT_LOCAL", "TRANSIENT"
 constexpr std::size_t kDurabilitiesThatCanBeMade = 2;
 constexpr std::array kLivelinesses = {"AUTOMATIC", "MANUAL_BY_PARTICIPANT", "MANUAL_BY_TOPIC"};
 constexpr std::array kOwnerships = {"SHARED", "EXCLUSIVE"};
-constexpr std::array kMilliseconds = {0, 300, 400, 1500};  // 0: infinite
+constexpr int kLongest = -1;  // the most that a profile can say in seconds: not yet infinite
+constexpr std::array kMilliseconds = {0, 300, 400, 1500, kLongest};  // 0: infinite
 
 std::string Duration(const std::string& element, int milliseconds) {
   if (milliseconds == 0) return "<" + element + ">DURATION_INFINITY</" + element + ">";
+  if (milliseconds == kLongest) {
+    return "<" + element + "><sec>2147483647</sec></" + element + ">";
+  }
   return "<" + element + "><sec>" + std::to_string(milliseconds / 1000) + "</sec><nanosec>" +
          std::to_string(milliseconds % 1000 * 1'000'000) + "</nanosec></" + element + ">";
 }

@@ -94,7 +94,7 @@ TEST(Rejoining, ASecondWorldFindsTheVehicleUnderItsIdAndIsHeard) {
   EXPECT_EQ(received->epoch, WorldEpoch{2});
   const auto took = std::chrono::steady_clock::now() - begin;
   // Usually a fifth of a second; a first match that is missed waits for the next announcement.
-  EXPECT_LT(took, seconds(2));
+  EXPECT_LT(took, seconds(5));
   EXPECT_EQ(vehicle.Counters().refused.old_world_entries, 0U);
 }
 
@@ -163,8 +163,12 @@ TEST(Rejoining, AWorldThatFellSilentIsFollowedByTheNextAndNoLongerBelieved) {
   second.OpenVehicle(kSeven, RobotModel{});
   second.SendRoster(Accepted(kSession, kSeven, 2));
   const auto speak = [&] { second.SendScan(ScanOf(2)); };
-  const auto received = EntryWithin(milliseconds(2500), vehicle, speak);
-  ASSERT_TRUE(received.has_value());
+  std::optional<RosterEntry> received;
+  ASSERT_TRUE(Eventually([&] {
+    speak();
+    received = vehicle.Take(SteadyTime{0}).inputs.roster;
+    return received.has_value();
+  }));
   EXPECT_EQ(received->epoch, WorldEpoch{2});
   first.SendRoster(Accepted(kSession, kSeven, 3));
   EXPECT_FALSE(EntryWithin(milliseconds(1500), vehicle, speak).has_value());
@@ -311,15 +315,22 @@ TEST(Leaving, AndComingAThousandTimesLeavesNothingBehind) {
     world.Flush(seconds(5));
   };
   come_and_go(300);
-  const long before = MemoryKb();
-  come_and_go(1000);
   // The thread sanitizer's shadow of what was touched is resident too.
 #ifdef GIVEWAY_THREAD_SANITIZER
   constexpr long kMostKb = 3 * 4096;
 #else
   constexpr long kMostKb = 4096;
 #endif
-  EXPECT_LT(MemoryKb() - before, kMostKb);
+  // What piled up while the machine was busy the library keeps, once. What is left behind grows
+  // with each thousand.
+  constexpr int kThousands = 3;
+  long grew_kb = kMostKb;
+  for (int i = 0; i < kThousands && grew_kb >= kMostKb; ++i) {
+    const long before = MemoryKb();
+    come_and_go(1000);
+    grew_kb = MemoryKb() - before;
+  }
+  EXPECT_LT(grew_kb, kMostKb);
 }
 
 }  // namespace

@@ -4,13 +4,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <filesystem>
+#include <fstream>
+#include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "services/link/fastdds/profile_file.h"
 #include "services/link/observer_link.h"
 #include "services/link/raw_link.h"
+#include "services/link/sample_codec.h"
 #include "services/link/world_link.h"
 #include "tests/link/fleet.h"
 
@@ -33,6 +39,18 @@ void DeleteOwnSharedMemory() {
     std::filesystem::remove(file);
     std::filesystem::remove(file.substr(0, file.size() - kLock.size()));
   }
+}
+
+std::size_t TopicNamed(std::string_view name) {
+  const auto& topics = link::RawTopics();
+  return static_cast<std::size_t>(std::ranges::find(topics, name, &link::RawTopic::name) -
+                                  topics.begin());
+}
+
+std::uint32_t SeqOf(const link::RawSample& event) {
+  link::Observed observed;
+  EXPECT_EQ(link::DecodeInto("world/event", event.bytes, &observed), link::Decoded::kYes);
+  return observed.events.at(0).seq;
 }
 
 bool LacksSegment() { return link::IsSegmentGone(link::LinksIn("/proc/self/fd")); }
@@ -69,6 +87,38 @@ TEST(SharedMemoryWatch, KnowsWhoHoldsAFormerFileOfAPort) {
   EXPECT_FALSE(link::HoldsDeleted("", {"/dev/shm/fastrtps_port7664"}));
 }
 
+// Regression: a world that started while a process ended, ended with it: "basic_filebuf::underflow
+// error reading the file: No such process".
+TEST(SharedMemoryWatch, AProcessWhoseMapsCannotBeReadIsPassedOver) {
+  const std::filesystem::path processes = testing::TempDir() + "/processes";
+  std::filesystem::create_directories(processes / "12" / "maps");  // opens, and fails when read
+  EXPECT_FALSE(link::AnyHoldsDeleted(processes, {"/dev/shm/fastrtps_port7664"}));
+  std::filesystem::create_directories(processes / "13");
+  std::ofstream(processes / "13" / "maps")
+      << "7f25aadf9000-7f25aae09000 rw-s 00000000 00:1b 22871   /dev/shm/fastrtps_port7664 "
+         "(deleted)\n";
+  EXPECT_TRUE(link::AnyHoldsDeleted(processes, {"/dev/shm/fastrtps_port7664"}));
+  std::filesystem::remove_all(processes);
+}
+
+// Regression: a vehicle that stood still for 4 s had its ports replaced, took what its peers still
+// had open for a fault, and came back over UDP alone.
+TEST(SharedMemoryWatch, APortThatIsReplacedWhileItsOwnerRunsIsNoFault) {
+  const DomainLock domain;
+  const link::ObserverLink observer(OptionsInSharedMemory(domain));
+  const std::set<std::string> ports = link::PortsOf(link::LinksIn("/proc/self/fd"));
+  ASSERT_FALSE(ports.empty());
+  link::SharedMemoryWatch watch;
+  EXPECT_FALSE(watch.IsGone(std::chrono::seconds(1)));
+  for (const std::string& port : ports) {
+    std::filesystem::remove(port);
+    std::ofstream(port) << "another file";
+  }
+  EXPECT_FALSE(watch.IsGone(std::chrono::seconds(3)));
+  EXPECT_TRUE(link::SharedMemoryWatch().IsGone(std::chrono::seconds(3))) << "where it starts";
+  for (const std::string& port : ports) std::filesystem::remove(port);
+}
+
 TEST(DeletedSharedMemory, AnObserverThatLostItReceivesAVehicleThatStartsLater) {
   const DomainLock domain;
   link::ObserverLink observer(OptionsInSharedMemory(domain));
@@ -80,18 +130,14 @@ TEST(DeletedSharedMemory, AnObserverThatLostItReceivesAVehicleThatStartsLater) {
   EXPECT_FALSE(LacksSegment());
 }
 
-// Regression: the world gives its events to a new reader again, and each was counted twice.
-TEST(DeletedSharedMemory, AnObserverThatLostItTakesNoEventTwice) {
-  const DomainLock domain;
-  link::WorldLink world(link::WithoutSharedMemory(OptionsInSharedMemory(domain)));
-  link::ObserverLink observer(OptionsInSharedMemory(domain));
+// Of who takes events from the world and loses the shared memory behind the second one. `take`
+// appends the numbers of those that are there.
+void ExpectEachEventOnce(link::WorldLink& world,
+                         const std::function<void(std::vector<std::uint32_t>*)>& take) {
   std::vector<std::uint32_t> taken;
-  const auto take = [&] {
-    for (const WorldEvent& event : observer.Take().events) taken.push_back(event.seq);
-  };
   const auto take_until = [&](std::uint32_t seq) {
     return Eventually([&] {
-      take();
+      take(&taken);
       return !taken.empty() && taken.back() == seq;
     });
   };
@@ -103,12 +149,32 @@ TEST(DeletedSharedMemory, AnObserverThatLostItTakesNoEventTwice) {
   ASSERT_TRUE(take_until(2));
   DeleteOwnSharedMemory();
   ASSERT_TRUE(Eventually([&] {
-    take();
+    take(&taken);
     return !LacksSegment();
   }));
   send(3);
   ASSERT_TRUE(take_until(3));
   EXPECT_THAT(taken, testing::ElementsAre(1, 2, 3));
+}
+
+// Regression: the world gives its events to a new reader again, and each was counted twice.
+TEST(DeletedSharedMemory, AnObserverThatLostItTakesNoEventTwice) {
+  const DomainLock domain;
+  link::WorldLink world(link::WithoutSharedMemory(OptionsInSharedMemory(domain)));
+  link::ObserverLink observer(OptionsInSharedMemory(domain));
+  ExpectEachEventOnce(world, [&](std::vector<std::uint32_t>* taken) {
+    for (const WorldEvent& event : observer.Take().events) taken->push_back(event.seq);
+  });
+}
+
+// A recording, and clients of Foxglove, got each event of the world twice.
+TEST(DeletedSharedMemory, ARecorderThatLostItTakesNoEventTwice) {
+  const DomainLock domain;
+  link::WorldLink world(link::WithoutSharedMemory(OptionsInSharedMemory(domain)));
+  link::RawLink recorder(OptionsInSharedMemory(domain), {TopicNamed("world/event")});
+  ExpectEachEventOnce(world, [&](std::vector<std::uint32_t>* taken) {
+    recorder.Take([&](const link::RawSample& sample) { taken->push_back(SeqOf(sample)); });
+  });
 }
 
 TEST(DeletedSharedMemory, ARecorderThatLostItReceivesAVehicleThatStartsLater) {

@@ -92,6 +92,13 @@ TEST_F(StartErrors, NameAFolderGivenAsFile) {
               ThrowsMessage<link::LinkError>(HasSubstr("is not a file")));
 }
 
+// Regression: an exception of the library of streams ended the process.
+TEST_F(StartErrors, NameAFileThatCannotBeReadToItsEnd) {
+  EXPECT_THAT(
+      [] { link::ReadProfileFile("/proc/self/mem"); },
+      ThrowsMessage<link::LinkError>(HasSubstr("/proc/self/mem: cannot be read to its end")));
+}
+
 TEST_F(StartErrors, RefuseAnEmptyAndABinaryFile) {
   options_.qos = Named("");
   EXPECT_EXIT(Start(options_), ExitedWithCode(2), "start error: .*qos.xml: the library refuses it");

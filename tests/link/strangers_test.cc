@@ -161,15 +161,15 @@ TEST_F(Strangers, AreNotHeardAsTheStatusOfAVehicleThatSpeaks) {
   lie.peers_heard = 99;
   std::uint32_t refused = 0;
   std::vector<Refusal> refusals;
-  Repeat(milliseconds(2500), [&] {
+  ASSERT_TRUE(Eventually([&] {
     vehicle_.SendStatus(status);
     stranger.SendStatus(lie);
     const link::Observed observed = observer.Take();
     for (const VehicleStatus& one : observed.statuses) EXPECT_EQ(one.peers_heard, 1U);
     refused += observed.refused;
     refusals.insert(refusals.end(), observed.refusals.begin(), observed.refusals.end());
-  });
-  EXPECT_GT(refused, 10U);
+    return refused > 10;
+  }));
   ASSERT_FALSE(refusals.empty());
   EXPECT_EQ(refusals[0].why, "another participant speaks for this id");
 }
@@ -185,8 +185,10 @@ TEST_F(Strangers, DoNotAnswerForAVehicle) {
     return AdminAnswer{.vehicle = kSeven, .order = order, .interface = "", .profiles = {"x", "x"}};
   };
   stranger.SendAnswer(answer(1));
-  Repeat(milliseconds(1500), [&] { EXPECT_TRUE(chief.Take().empty()); });
-  EXPECT_GT(chief.Refused(), 0U);
+  ASSERT_TRUE(Eventually([&] {
+    EXPECT_TRUE(chief.Take().empty());
+    return chief.Refused() > 0;
+  }));
   EXPECT_FALSE(chief.TakeRefusals().empty());
   vehicle_.SendAnswer(answer(2));
   std::vector<AdminAnswer> got;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "services/link/observer_link.h"
 #include "services/link/world_link.h"
@@ -59,6 +60,17 @@ class Pair : public ::testing::Test {
   link::WorldLink world_;
   link::VehicleLink vehicle_;
 };
+
+// It publishes nothing before a vehicle joins, and was taken for silent.
+TEST(Observing, FindsAWorldWithoutVehiclesUntilItLeaves) {
+  const DomainLock domain;
+  link::ObserverLink observer(OptionsIn(domain));
+  EXPECT_EQ(observer.Take().world, 0U);
+  auto world = std::make_unique<link::WorldLink>(OptionsIn(domain));
+  EXPECT_TRUE(Eventually([&] { return observer.Take().world != 0; }));
+  world.reset();
+  EXPECT_TRUE(Eventually([&] { return observer.Take().world == 0; }));
+}
 
 TEST(Joining, IsAnsweredBySessionAndARefusalLeavesTheOwnersEntryAlone) {
   const DomainLock domain;
@@ -292,6 +304,38 @@ TEST_F(Pair, AFlushedLastStatusHasArrived) {
   const std::vector<VehicleStatus> statuses = observer.Take().statuses;
   ASSERT_FALSE(statuses.empty());
   EXPECT_TRUE(statuses.back().final);
+}
+
+// As that of a soak. What it does not ask for twice is not lost by coming late.
+TEST_F(Pair, AnObserverThatLetsPacketsGatherHearsEachStatusInOrder) {
+  link::LinkOptions options = OptionsIn(domain_);
+  options.requests_status_once = true;
+  options.lets_packets_gather = true;
+  link::ObserverLink observer(options);
+  VehicleStatus status;
+  status.vehicle = kSeven;
+  std::vector<Tick> heard;
+  const auto listen = [&] {
+    for (const VehicleStatus& one : observer.Take().statuses) heard.push_back(one.tick);
+  };
+  const Tick first = status.tick;
+  ASSERT_TRUE(Eventually([&] {
+    vehicle_.SendStatus(status);
+    listen();
+    return !heard.empty();
+  }));
+  std::vector<Tick> sent;
+  for (std::uint32_t tick = 1; tick <= 100; ++tick) {
+    status.tick = sent.emplace_back(Tick{tick});
+    vehicle_.SendStatus(status);
+    if (tick % 10 != 0) continue;
+    EXPECT_TRUE(Eventually([&] {
+      listen();
+      std::erase(heard, first);  // those that were sent until one was heard
+      return heard.size() == sent.size();
+    })) << tick;
+  }
+  EXPECT_EQ(heard, sent);
 }
 
 TEST_F(Pair, NothingFailedToBeWritten) {

@@ -7,7 +7,7 @@
  *   Hear            PeerTable::Take, IsFresh, IsLost                            peer_table.cc
  *   PrecedesByKey   PrecedesByKey, HasPriority: by both keys as published       beacon.h
  *   Look            RelatePeers, CrossingWith: conflict, grants, has_priority   peer_relation.cc
- *   IsThroughFirst  IsThroughFirst; of ONE_LANE IsInFirst                       timing.cc
+ *   IsThroughFirst  IsThroughFirst, of ONE_LANE too                             timing.cc
  *   UpdateFresh     UpdateEncounters, Begins, IsOver, Holds, SecondMustStop     encounter.cc
  *   MayCross        MayCrossBefore                                              encounter.cc
  *   UpdateLost      UpdateLost, Holds of a lost peer                            encounter.cc

@@ -43,7 +43,7 @@ summary() {
     | "\(.verdict); faults \(.faults | length), seen \([.faults[] | select(.observed)] | length)"
       + ", contacts \([.violations[] | select(.invariant == "contact")] | length)"
       + if $broken == "" then "" else "; broken: \($broken)" end
-      + if (.skipped_faults | length) == 0 then "" else "; left out \(.skipped_faults | length)" end' "$1"
+      + if .skipped_counted == 0 then "" else "; left out \(.skipped_counted)" end' "$1"
 }
 
 holds() {

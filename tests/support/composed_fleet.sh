@@ -3,6 +3,7 @@
 # waiting for conditions with deadlines. Sourced, never run.
 source "$(dirname "${BASH_SOURCE[0]}")/../support/engine.sh"
 source "$(dirname "${BASH_SOURCE[0]}")/../support/only_late.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/lateness.sh"
 
 HERE=$GIVEWAY_ROOT/tests/containers
 # Which of the drills at a time this is: containers, network and firewall rules of each are its own.
@@ -11,6 +12,8 @@ PROJECT=giveway-drill-$DRILL
 FIREWALL=giveway_drill_$DRILL
 export GIVEWAY_SUBNET=172.30.$((52 + DRILL))
 SCRATCH=$(mktemp -d)
+keep_time "$SCRATCH/late_us"
+TIME_KEEPER=$!
 # What drill.yaml mounts; the services' user reads it.
 export DRILL_SCENARIOS=$SCRATCH/scenarios
 mkdir "$DRILL_SCENARIOS"
@@ -25,7 +28,7 @@ use() {
   return 0
 }
 
-# A single run: the services end with it, and the world's exit code is its verdict.
+# A single run: the services end with it, and the world's exit code is its verdict. One that crashes comes back.
 once() { export GIVEWAY_RESTART=on-failure GIVEWAY_STAY=; }
 
 # eight ARRIVALS: the shipped open fleet, started once eight have joined, with this line on which must arrive.
@@ -73,6 +76,7 @@ says() { docker logs "$1" 2>&1 | grep -Eq "$2"; }
 pass_multicast() { nft delete table bridge "$FIREWALL" 2>/dev/null || true; }
 
 end_drill() {
+  kill "$TIME_KEEPER" 2>/dev/null || true
   if [[ $failures -ne 0 ]]; then
     for container in $(all_containers); do
       echo "--- $(name_of "$container")" >&2
@@ -162,14 +166,16 @@ places() {
   echo "$sum"
 }
 
-# await WHAT SECONDS COMMAND...: waits until the command is true; fails after so many seconds.
+# await WHAT SECONDS COMMAND...: waits until the command is true; fails after so many seconds, to which is added
+# what the machine was late meanwhile.
 await() {
-  local what=$1 seconds=$2 start_ns now
+  local what=$1 seconds=$2 start_ns waited_us late_before_us
   shift 2
   start_ns=$(date +%s%N)
+  late_before_us=$(late_us "$SCRATCH/late_us")
   while ! "$@"; do
-    now=$(date +%s%N)
-    if ((now - start_ns > seconds * 1000000000)); then
+    waited_us=$((($(date +%s%N) - start_ns) / 1000))
+    if ((waited_us > seconds * 1000000 + $(late_us "$SCRATCH/late_us") - late_before_us)); then
       fail "$what: not within $seconds s"
       return 0
     fi

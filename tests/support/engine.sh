@@ -2,6 +2,7 @@
 # A container engine for tests: Debian's docker, started here if none runs, and stopped again by the script
 # that started it. No registry is contacted. Sourced, never run.
 source "$(dirname "${BASH_SOURCE[0]}")/../../config/deploy/engine.sh"
+unset GIVEWAY_BASE # GIVEWAY_SUITE alone says what is tested
 
 failures=0
 fail() {

@@ -2,6 +2,7 @@
 # What the tests of the dynamic fleet share: a domain, a world and vehicles that are children of the
 # script itself, and waiting for what they log, with deadlines. Sourced, never run.
 source "$(dirname "${BASH_SOURCE[0]}")/../support/fleet.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/lateness.sh"
 
 BIN=$(dirname "$FLEETCTL")
 LANES=$REPOSITORY/tests/system/lanes.textproto
@@ -10,6 +11,7 @@ declare -A PID # of each member, by its name; its log is $SCRATCH/NAME.log
 end_members() {
   local name
   end_listening
+  [[ ${failures:-0} -eq 0 ]] || tail -n 5 "$SCRATCH"/*.log >&2
   for name in "${!PID[@]}"; do kill -9 "${PID[$name]}" 2>/dev/null || true; done
   [[ -n ${KEEP:-} ]] || rm -rf "$SCRATCH"
 }
@@ -17,6 +19,10 @@ trap end_members EXIT
 
 # Sets DOMAIN to a free one, and keeps it by the lock that fleetctl takes too.
 take_domain() {
+  [[ -n ${PID[time]:-} ]] || {
+    keep_time "$SCRATCH/late_us"
+    PID[time]=$!
+  }
   for DOMAIN in $(seq 60 99); do
     exec {lock}>>"${TMPDIR:-/tmp}/giveway-domain-$DOMAIN.lock"
     flock -n "$lock" && [[ -z $(processes_on "$DOMAIN") ]] && return
@@ -45,11 +51,15 @@ alive() { kill -0 "${PID[$1]}" 2>/dev/null; }
 lines_of() { wc -l <"$SCRATCH/$1.log"; }
 
 # await WHAT SECONDS NAME PATTERN [LINE]: true once a line of the member's log after line LINE
-# matches; a failure if none does in time.
+# matches; a failure if none does in time, to which is added what the machine was late meanwhile.
 await() {
   local what=$1 seconds=$2 log=$SCRATCH/$3.log pattern=$4 from=${5:-0} started_us=${EPOCHREALTIME/[.,]/}
+  local late_before_us waited_us
+  late_before_us=$(late_us "$SCRATCH/late_us")
   until has_said "$log" "$pattern" "$from"; do
-    if ((${EPOCHREALTIME/[.,]/} - started_us > seconds * 1000000)); then
+    waited_us=$((${EPOCHREALTIME/[.,]/} - started_us))
+    if ((waited_us > seconds * 1000000)) &&
+      ((waited_us > seconds * 1000000 + $(late_us "$SCRATCH/late_us") - late_before_us)); then
       fail "$what: no '$pattern' in $seconds s; $3 says: $(tail -n 3 "$log" | tr '\n' '|')"
       return
     fi
@@ -71,20 +81,3 @@ id_of() { sed -n 's/.*is vehicle \([0-9]*\).*/\1/p' "$SCRATCH/$1.log" | tail -n 
 no_contact() {
   if grep -H 'contact:' "$SCRATCH"/world*.log; then fail "vehicles touched"; fi
 }
-
-# Starts a process that only sleeps, 20 ms at a time, and notes each time that it was woken 40 ms late or
-# more: then the machine was too busy for vehicles too, whose ranges are stale after 150 ms.
-keep_time() {
-  : >"$SCRATCH/late_us"
-  (
-    exec 3<> <(:)
-    while :; do
-      started=${EPOCHREALTIME/[.,]/}
-      read -rt 0.02 -u 3 _ || true
-      late_us=$((${EPOCHREALTIME/[.,]/} - started - 20000))
-      ((late_us < 40000)) || echo "$late_us" >>"$SCRATCH/late_us"
-    done
-  ) &
-  PID[time]=$!
-}
-times_late() { wc -l <"$SCRATCH/late_us"; }

@@ -19,6 +19,7 @@ inline constexpr std::array<std::uint8_t, 2> kCyclone = {0x01, 0x10};
 inline constexpr std::uint32_t kAnyReader = 0;
 inline constexpr std::uint32_t kUserWriter = 0x00000103;
 inline constexpr std::uint32_t kAnnouncer = 0x000100c2;
+inline constexpr std::uint32_t kPublications = 0x000003c2;
 
 class RtpsPacket {
  public:
@@ -102,6 +103,19 @@ class RtpsPacket {
     Append(count, 4, &body);
     return Add(0x06, 0, body);
   }
+  RtpsPacket& NackFrag(std::uint32_t writer, std::int64_t number, std::uint32_t first,
+                       std::uint32_t bits, std::uint32_t count = 1,
+                       std::uint32_t reader = kAnyReader) {
+    PacketBytes body;
+    AppendEntity(reader, &body);
+    AppendEntity(writer, &body);
+    AppendNumber(number, &body);
+    Append(first, 4, &body);
+    Append(bits, 4, &body);
+    body.resize(body.size() + 4 * (bits / 32 + (bits % 32 == 0 ? 0 : 1)), 0xff);
+    Append(count, 4, &body);
+    return Add(0x12, 0, body);
+  }
   // As Fast DDS ends each packet it sends; always big-endian.
   RtpsPacket& Statistics() {
     bytes_.insert(bytes_.end(), {0x80, 0, 0, 56});
@@ -142,6 +156,41 @@ class RtpsPacket {
     payload.insert(payload.end(), more_parameters.begin(), more_parameters.end());
     parameter(1, {});
     return Data(kAnnouncer, number, payload, 0x000100c7);
+  }
+
+  // The announcement of a writer of a participant, with more parameters at its end.
+  RtpsPacket& WriterAnnouncement(const PrefixBytes& participant, std::uint32_t writer,
+                                 std::int64_t number,
+                                 std::span<const std::uint8_t> more_parameters = {}) {
+    PacketBytes payload = {0, static_cast<std::uint8_t>(little_ ? 3 : 2), 0, 0};
+    Append(0x005a, 2, &payload);
+    Append(16, 2, &payload);
+    payload.insert(payload.end(), participant.begin(), participant.end());
+    AppendEntity(writer, &payload);
+    payload.insert(payload.end(), more_parameters.begin(), more_parameters.end());
+    Append(1, 2, &payload);
+    Append(0, 2, &payload);
+    return Data(kPublications, number, payload, 0x000003c7);
+  }
+
+  // Its end, as Fast DDS announces it: the key in the inline QoS, and no payload.
+  RtpsPacket& WriterEnd(const PrefixBytes& participant, std::uint32_t writer, std::int64_t number) {
+    PacketBytes body;
+    Append(0, 2, &body);
+    Append(16, 2, &body);
+    AppendEntity(0x000003c7, &body);
+    AppendEntity(kPublications, &body);
+    AppendNumber(number, &body);
+    Append(0x0070, 2, &body);
+    Append(16, 2, &body);
+    body.insert(body.end(), participant.begin(), participant.end());
+    AppendEntity(writer, &body);
+    Append(0x0071, 2, &body);
+    Append(4, 2, &body);
+    body.insert(body.end(), {0, 0, 0, 3});
+    Append(1, 2, &body);
+    Append(0, 2, &body);
+    return Add(0x15, 0x02, body);
   }
 
   const PacketBytes& Bytes() const { return bytes_; }

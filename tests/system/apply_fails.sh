@@ -68,8 +68,8 @@ free_memory
 [[ $code -eq 1 ]] || fail "exit code $code: $(head -c 600 out err)"
 says "the answer" '.verdict == "refused" and
   (.vehicles[0].refusal | contains("came back with what it had: it ended by signal 7"))'
-await "it restarted" 1 1 'restarts itself with the QoS of same_host' "$line"
-await "it came back" 1 1 'comes back with the QoS it had before: it ended by signal 7' "$line"
+await "it restarted" 10 1 'restarts itself with the QoS of same_host' "$line"
+await "it came back" 10 1 'comes back with the QoS it had before: it ended by signal 7' "$line"
 await "it drives on" 5 1 cruise "$(grep -n 'comes back' 1.log | cut -d: -f1)"
 alive 1 || fail "it is gone: $(tail -n 3 1.log)"
 timeout 20 "$FLEETCTL" qos show --live 1 --domain "$DOMAIN" --qos default >out 2>err ||
@@ -84,6 +84,31 @@ fi
   fail "with enough memory: $(head -c 600 out err)"
 says "with enough memory" '.verdict == "applied"'
 await_places 1 3 10
+
+# An operator ends the verb while a process has an order and has not answered: it carried it out when it came to it,
+# and stood alone with a set that no other had.
+line=$(lines_of 2)
+: >out # that of the order before is not empty
+"$FLEETCTL" qos apply lossy_radio --to 2 --force --domain "$DOMAIN" >out 2>err &
+order=$!
+PID[order]=$order
+for _ in $(seq 1000); do [[ ! -s out ]] || break; sleep 0.01; done # the plan
+kill -STOP "${PID[2]}"
+kill -INT "$order"
+for _ in $(seq 1000); do
+  ! grep -q 'gave no answer' out || break
+  sleep 0.01
+done
+kill -CONT "${PID[2]}"
+code=0
+wait "$order" || code=$?
+unset "PID[order]"
+[[ $code -eq 1 ]] || fail "ended while it waited: exit code $code: $(cat out err)"
+await "ended while it waited: 2 has gone back" 5 2 'restarts itself with the QoS of default' "$line"
+line=$(grep -n 'restarts itself with the QoS of default' 2.log | tail -n 1 | cut -d: -f1)
+await "ended while it waited: 2 drives" 10 2 cruise "$line"
+timeout 20 "$FLEETCTL" qos show --live 2 --domain "$DOMAIN" --qos default >shown 2>err ||
+  fail "ended while it waited: 2 has another set: $(cat out; grep not shown; cat err)"
 
 end_listening
 places 1 | jq -e 'length >= 3 and all(.[]; .beyond_m < 0.1) and

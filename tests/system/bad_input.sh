@@ -167,12 +167,37 @@ for case in "no_such no_such" "$SCRATCH/random.textproto fleetctl.faults.expand"
 done
 
 # A virtual run of README, and one that asks for what is not virtual.
+code=0
 "$FLEETCTL" virtual crossing --seeds 1..20 --faults flaky_hardware >"$SCRATCH/out" 2>&1 || code=$?
-grep -q 'runs' "$SCRATCH/out" || fail "virtual --faults flaky_hardware: $(head -c 600 "$SCRATCH/out")"
+{ [[ $code -eq 0 ]] && grep -q 'runs' "$SCRATCH/out"; } ||
+  fail "virtual --faults flaky_hardware: exit code $code: $(head -c 600 "$SCRATCH/out")"
 code=0
 "$FLEETCTL" virtual crossing --seed 1 --faults everything >"$SCRATCH/out" 2>"$SCRATCH/err" || code=$?
 { [[ $code -eq 2 ]] && grep -q 'disk_full.*--skip-unsupported' "$SCRATCH/err"; } ||
   fail "virtual --faults everything: exit code $code: $(head -c 600 "$SCRATCH/err")"
+
+code=0
+"$FLEETCTL" virtual crossing --seed 1 --mcap "$SCRATCH/run.bin" >"$SCRATCH/out" 2>"$SCRATCH/err" || code=$?
+{ [[ $code -eq 2 ]] && grep -q 'write .*run\.bin\.mcap' "$SCRATCH/err" && [[ ! -s $SCRATCH/out ]]; } ||
+  fail "virtual --mcap run.bin: exit code $code: $(head -c 600 "$SCRATCH/err")"
+
+# What is no number passes no range, and one that may be of two units is refused.
+while IFS='|' read -r pattern words; do
+  code=0
+  # shellcheck disable=SC2086  # words of a command line
+  "$FLEETCTL" $words >"$SCRATCH/out" 2>"$SCRATCH/err" || code=$?
+  { [[ $code -eq 2 ]] && grep -q -- "$pattern" "$SCRATCH/err"; } ||
+    fail "$words: exit code $code: $(head -c 600 "$SCRATCH/err")"
+done <<CASES
+--cores.*from 0.1 to 1024, not 'nan'|plan 5 --cores nan
+--memory-gib.*not 'nan'|plan 5 --memory-gib nan
+--link-mbit.*not 'nan'|plan 5 --link-mbit nan
+--split.*has no unit.*MiB.*600s|record $SCRATCH/run.mcap --domain 98 --split 1000000
+--ros2-rate.*not 'nan'|record $SCRATCH/run.mcap --domain 98 --ros2 --ros2-rate nan
+--fault AT.*from 0 to 86400|virtual crossing --seed 1 --fault crash:1@$(printf '9%.0s' {1..400})
+--fault AT.*from 0 to 86400|virtual crossing --seed 1 --fault pause:1@99999999999999999999
+--fault FOR.*from 0 to 86400|virtual crossing --seed 1 --fault pause:1@5+99999999999999999999
+CASES
 
 code=0
 "$FLEETCTL" rum 2>"$SCRATCH/err" || code=$?

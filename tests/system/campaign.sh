@@ -50,7 +50,7 @@ JOB_COMPLETION_INDEX=0 campaign 0 "Kubernetes" shard plan.textproto --out result
 [[ ! -s err ]] || fail "Kubernetes: something on stderr: $(<err)"
 SLURM_ARRAY_TASK_ID=1 campaign 0 "Slurm" shard plan.textproto --out results
 PARALLEL_SEQ=3 campaign 0 "parallel" shard plan.textproto --out results
-refused "a shard lacks" 'index = 3: lacks: 1 of 4 shards; .*--of 4 --index 3' merge results/*.json
+refused "a shard lacks" 'index = 3: missing: 1 of 4 shards; .*--of 4 --index 3' merge results/*.json
 campaign 0 "the one that lacks" shard plan.textproto --index 3 --out results
 campaign 0 "merge of four" merge results/*.json --json
 cmp -s out whole.json || fail "four shards give another result: $(diff out whole.json)"
@@ -176,6 +176,18 @@ code=0
 (ulimit -f 4 && exec "$FLEETCTL" campaign shard wide.textproto --index 0 --jobs 2 --out small_disk) 2>err | cat >out || code=$?
 [[ $code -eq 75 ]] || fail "a full disk: exit code $code: $(<err)"
 cmp -s out wide/wide.0-of-1.json || fail "a full disk: it was not printed"
+
+# A full disk takes neither the file nor its folder; later it may.
+if unshare --map-root-user --mount true 2>/dev/null; then
+  for inodes in 1 2; do
+    code=0
+    # shellcheck disable=SC2016  # expanded by the inner shell
+    unshare --map-root-user --mount bash -c 'mkdir -p tiny && mount -t tmpfs -o "nr_inodes=$1" none tiny &&
+      exec "$2" campaign shard wide.textproto --index 0 --out tiny/results' bash "$inodes" "$FLEETCTL" >out 2>err || code=$?
+    [[ $code -eq 75 && ! -s out ]] || fail "a disk of $inodes inodes: exit code $code: $(<err)"
+    grep -q 'No space left on device; see to that disk.*run the shard again' err || fail "$inodes inodes: $(<err)"
+  done
+fi
 
 # Fewer threads than asked for, by an address space that holds the stacks of three; and none.
 code=0

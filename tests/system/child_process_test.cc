@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "services/fleetctl/process/fleet_processes.h"
+#include "services/fleetctl/process/fleet_restarts.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -97,6 +98,18 @@ TEST(ChildProcess, WhatIsNotReadWaitsInItsPipe) {
   child.HearOutput(true);
   EXPECT_TRUE(WaitFor(&child, [&] { return child.Output().read == 9; }));
   EXPECT_EQ(child.Output().unread, 0U);
+}
+
+// Regression: after one write that failed, the log had nothing more, and nothing said so.
+TEST(ChildProcess, ALogThatCannotBeWrittenIsSaidAndWhatIsMissingCounted) {
+  ChildCommand command = Shell("echo one; sleep 0.1; echo two");
+  command.log_file = "/dev/full";
+  ChildProcess child(command);
+  ASSERT_TRUE(WaitForEnd(&child));
+  EXPECT_THAT(child.LastLines(), ElementsAre("one", "two"));
+  EXPECT_THAT(child.TakeLogComplaints(),
+              ElementsAre(HasSubstr("/dev/full: cannot be written: No space left on device"),
+                          "/dev/full: 8 bytes are missing"));
 }
 
 TEST(ChildProcess, OnlyTheLastTwentyLinesAreKept) {
@@ -307,6 +320,38 @@ TEST(FleetProcesses, NothingMoreIsStartedOnceAllAreToStop) {
   const std::vector<MemberEnd> ends = fleet.TakeEnds();
   ASSERT_THAT(ends, SizeIs(1));
   EXPECT_EQ(ends[0].how, (ProcessEnd{true, SIGTERM}));
+}
+
+// Regression: a log that could not be made ended the whole fleet, and the run with it.
+TEST(FleetRestarts, OneThatCannotBeStartedLeavesTheOthersAloneAndIsStartedLater) {
+  const std::filesystem::path folder =
+      testing::TempDir() + "fleet_restarts_" + std::to_string(::getpid());
+  std::filesystem::create_directory(folder);
+  MemberCommand command = Command(kOne, "exit 1");
+  command.child.log_file = folder / "one.log";
+  FleetProcesses fleet({command, Command(kTwo, kSleep)});
+  FleetRestarts restarts(&fleet);
+  const auto command_of = [&fleet](MemberId member) { return fleet.CommandOf(member); };
+  ASSERT_TRUE(WaitForEnd(&fleet, kOne));
+  std::filesystem::remove_all(folder);
+
+  SteadyTime now = std::chrono::seconds(1);
+  restarts.NoteEnd(kOne, now);
+  const std::vector<FailedStart> failed = restarts.Turn(now, command_of);
+  ASSERT_THAT(failed, SizeIs(1));
+  EXPECT_THAT(failed[0].why, HasSubstr("one+.log: No such file or directory"));
+  EXPECT_TRUE(restarts.Awaits(kOne));
+  EXPECT_TRUE(restarts.AwaitsAny([](MemberId member) { return member != kTwo; }));
+  EXPECT_FALSE(restarts.AwaitsAny([](MemberId member) { return member == kTwo; }));
+  EXPECT_THAT(restarts.Turn(now, command_of), SizeIs(0)) << "not at once";
+  EXPECT_TRUE(fleet.IsRunning(kTwo));
+
+  std::filesystem::create_directory(folder);
+  now += RestartBackoff::kLongest;
+  EXPECT_THAT(restarts.Turn(now, command_of), SizeIs(0));
+  EXPECT_FALSE(restarts.Awaits(kOne));
+  EXPECT_TRUE(std::filesystem::exists(folder / "one+.log"));
+  std::filesystem::remove_all(folder);
 }
 
 TEST(FleetProcesses, ARestartedOneIsAnotherProcessWithALogOfItsOwn) {

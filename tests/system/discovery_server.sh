@@ -55,6 +55,10 @@ for how in packet kill packet; do
   await_server "ended by $how" "$old"
   sleep 0.5
   for at in "$HEALTH" $((HEALTH + 1)); do
+    for _ in $(seq 20); do # one late scan is no more than that
+      [[ $(metric "$at" giveway_vehicle_ready) != 1 ]] || break
+      sleep 0.05
+    done
     [[ $(metric "$at" giveway_vehicle_ready) == 1 ]] || fail "ended by $how: a vehicle is not ready"
   done
   (($(metric "$HEALTH" giveway_vehicle_beacons_accepted_total) > before + 5)) ||

@@ -23,10 +23,10 @@ from=$(lines_of first)
 kill -BUS "${PID[first]}"
 await "one that drives comes back" 5 first 'over UDP alone.*signal 7' "$from"
 await "it drives again" 15 first 'cruise' "$from"
+from=$(lines_of second)
 kill -BUS "${PID[world]}"
 await "the world comes back" 5 world 'over UDP alone.*signal 7'
 await "from where it was" 10 world 'resumes from the checkpoint with 2 '
-from=$(lines_of second)
 await "the fleet drives again" 20 second 'cruise' "$from"
 no_contact
 

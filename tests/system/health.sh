@@ -56,6 +56,11 @@ start alone giveway-vehicle --health-port "$A"
 await_health "no world" 5 "$A" ready 1 'not joined: no answer from a world'
 await_health "no world, alive" 1 "$A" live 0 '^live$'
 stops alone
+# Nor with a discovery server that has no address: then it has no participant, either.
+start alone giveway-vehicle --health-port "$A" --discovery-server no-such-server.invalid
+await_health "no server" 5 "$A" ready 1 'starting: .*no-such-server.invalid'
+await_health "no server, alive" 1 "$A" live 0 '^live$'
+stops alone
 
 start world giveway-world --health-port "$WORLD"
 start a giveway-vehicle --health-port "$A" --record "$SCRATCH/a.tape" --record-split 64KiB
@@ -153,6 +158,7 @@ echo "under strangers' requests: $late scans late, $missed beacons missed" >&2
 ((late <= 5 && missed <= 2)) || fail "strangers disturb the loop: $late late, $missed missed"
 
 # --- A loop that hangs is not live, and is again when it continues.
+line=$(lines_of a)
 kill -USR1 "${PID[b]}"
 await_health "b hangs" 3 "$B" live 1 'not live: the control loop has been silent for [0-9.]+ s'
 await_health "b hangs and is not ready" 1 "$B" ready 1 'silent for'
@@ -162,7 +168,7 @@ await_health "b continues" 2 "$B" live 0 '^live$'
 await_health "b drives again" 5 "$B" ready 0 '^ready$'
 
 # --- A leave is not a loss. Half a request does not keep the vehicle from leaving.
-await "a hears b again" 5 a "beacon_heard: vehicle $id_b"
+await "a hears b again" 5 a "beacon_heard: vehicle $id_b" "$line"
 sleep 0.5
 line=$(lines_of a)
 lost=$(metric "$A" giveway_vehicle_liveliness_lost_total)
@@ -248,6 +254,7 @@ fi
 
 # watched_in_vain: an observer joins, and is killed: nothing may wait for it for long.
 watched_in_vain() {
+  : >"$SCRATCH/top.log" # that of the one before shows a fleet, too
   "$FLEETCTL" top --domain "$DOMAIN" >"$SCRATCH/top.log" 2>/dev/null &
   PID[top]=$!
   await "an observer sees" 5 top 'cruise|halt'
@@ -300,8 +307,32 @@ grep -q 'watchdog: the control loop has made no progress' "$SCRATCH/c3.log" || f
 (($(grep -c '^thread ' "$SCRATCH/c3.log") >= 5)) || fail "c3 does not say where its threads are"
 grep -q 'the loop:$' "$SCRATCH/c3.log" || fail "c3 does not say which thread is the loop"
 
+# --- So does that of an observer, of which a probe alone starts nothing again; a process that was stopped does
+# not hang.
+start seer giveway-observer --port "$B" --hang-on-signal
+await_health "an observer sees" 10 "$B" live 0 '^live$'
+kill -STOP "${PID[seer]}"
+sleep 4
+kill -CONT "${PID[seer]}"
+await_health "an observer that was stopped" 2 "$B" live 0 '^live$'
+since=$(date +%s%N)
+kill -USR1 "${PID[seer]}"
+ended seer 70 "$since" 8000 # many of its threads hold back signals, 0.1 s each
+grep -q 'watchdog: the control loop has made no progress' "$SCRATCH/seer.log" || fail "the observer does not say why"
+
 watched_in_vain
 since=$(date +%s%N)
 stops world3
 ended d 0 "$since" 3000
+
+# --- In lockstep a world waits a second for a command. One that is stopped together with its vehicle, which
+# answers no more, stops in time nevertheless, and leaves no checkpoint. Regression: 143, and a checkpoint.
+start world4 giveway-world --lockstep --health-port "$WORLD" --checkpoint "$SCRATCH/world4.checkpoint"
+start e giveway-vehicle --lockstep --health-port "$A"
+await_health "e drives in lockstep" 10 "$A" ready 0 '^ready$'
+kill -STOP "${PID[e]}"
+sleep 0.1
+stops world4
+[[ ! -e $SCRATCH/world4.checkpoint ]] || fail "world4 left a checkpoint, to be resumed from"
+kill_now e
 [[ $failures -eq 0 ]]

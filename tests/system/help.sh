@@ -33,11 +33,29 @@ for page in "${pages[@]}"; do
     [[ $wide -le $columns ]] || fail "$page --help: $wide columns on a terminal of $columns"
   done
 done
+# The rules of variables know all that the verbs read, and so notice when one is misspelt.
+mapfile -t ours < <(for page in "${pages[@]}"; do
+  # shellcheck disable=SC2086
+  "$FLEETCTL" $page --help
+done | tr -d ' \n' | grep -o '\[GIVEWAY_[A-Z0-9_]*\]' | tr -d '[]' | sort -u)
+[[ ${#ours[@]} -ge 15 ]] || fail "variables: ${ours[*]}"
+env "${ours[@]/%/X=1}" "$FLEETCTL" qos check >out 2>&1 || true
+for name in "${ours[@]}"; do
+  grep -q "${name}X: .*$name is meant?" out || fail "a misspelt $name is not noticed"
+done
 for service in giveway-observer giveway-vehicle giveway-world; do
   "$programs/$service" --help >help || fail "$service --help: exit code $?"
   [[ $(wc -L <help) -le 80 ]] || fail "$service --help: $(wc -L <help) columns"
 done
 [[ $("$FLEETCTL" version) == "$("$FLEETCTL" --version)" ]] || fail "version is not --version"
+if [[ -w /dev/full ]]; then
+  for words in 'help run' version 'completion bash' 'complete ru' --help --version 'run --help'; do
+    code=0
+    # shellcheck disable=SC2086  # words of a command line
+    "$FLEETCTL" $words >/dev/full 2>err || code=$?
+    [[ $code -eq 2 ]] || fail "$words to a full disk: exit code $code: $(<err)"
+  done
+fi
 
 # meant PATTERN ARGUMENTS...: refused, with a suggestion.
 meant() {
@@ -61,8 +79,8 @@ meant "did you mean '--domain'?" "$programs/giveway-observer" --domian 3
 # A flag's former name does what its name does.
 "$FLEETCTL" plan 4 --cores 8 --memory-gib 8 >positional || fail "plan 4: exit code $?"
 "$FLEETCTL" plan --vehicles 4 --cores 8 --memory-gib 8 | cmp -s - positional || fail "plan --vehicles"
-"$FLEETCTL" virtual crossing --seeds 1..3 --loss 5 --json | jq .state_hash >bare
-"$FLEETCTL" virtual crossing --seeds 1..3 --loss 5% --json | jq .state_hash | cmp -s - bare ||
+"$FLEETCTL" virtual crossing --seeds 1..3 --loss 5 --json | jq -e .hash >bare || fail "no hash"
+"$FLEETCTL" virtual crossing --seeds 1..3 --loss 5% --json | jq .hash | cmp -s - bare ||
   fail "--loss 5% is not --loss 5"
 
 # Completion, in bash itself.

@@ -2,7 +2,9 @@
 # A vehicle whose network interface is removed and comes back differently, as another device or with another
 # address, would receive nothing any more: it ends with exit code 1 within three seconds, and drives on from
 # where it stands once it is restarted. The other vehicle drives on throughout. The world and the two have
-# network namespaces of their own, joined by a bridge. Needs root.
+# network namespaces of their own, joined by a bridge. Then the world's interface gets another address: the
+# world and an observer end as a vehicle does, and the world that is started next resumes. Regression: both
+# stayed deaf, and said that they were ready. Needs root.
 if [[ -z ${OWN_NETWORK:-} ]]; then
   if [[ $(id -u) -ne 0 ]] || ! unshare -nm true 2>/dev/null; then
     echo "not root: left out" >&2
@@ -41,7 +43,7 @@ drive() {
   PID[$name]=$!
 }
 
-# ends WHAT NAME: with exit code 1, after NOTICED_MS from now at most, and the longest pause of the machine.
+# ends WHAT NAME [INTERFACE]: with exit code 1, after NOTICED_MS from now at most, and the longest pause of the machine.
 ends() {
   local what=$1 name=$2 code=0 start_ms last now took_ms pause_ms=0
   start_ms=$(date +%s%3N)
@@ -62,7 +64,7 @@ ends() {
   echo "$what: ended after $took_ms ms, the machine paused for $pause_ms ms" >&2
   ((code == 1)) || fail "$what: exit code $code of $name"
   ((took_ms <= NOTICED_MS + pause_ms)) || fail "$what: $name ended after $took_ms ms"
-  grep -q 'the network interfaces changed: was eth0 (.*; ends, to be started again' \
+  grep -q "the network interfaces changed: was ${3:-eth0} (.*; ends, to be started again" \
     "$SCRATCH/$name.log" || fail "$what: $name does not say why: $(tail -n 3 "$SCRATCH/$name.log")"
 }
 
@@ -81,7 +83,8 @@ done
 connect a 192.0.2.11
 connect b 192.0.2.12
 
-start world giveway-world --interface fleet
+start world giveway-world --interface fleet --checkpoint "$SCRATCH/world.checkpoint"
+start observer giveway-observer --interface fleet --port $((18000 + DOMAIN))
 drive a a --id 1 --interface 192.0.2.11
 drive b b --id 2 --interface eth0
 for vehicle in a b; do await "at first: $vehicle drives" 15 "$vehicle" cruise; done
@@ -116,6 +119,17 @@ for vehicle in a b; do
     .[1].continues' >/dev/null ||
     fail "where $vehicle took itself to be: $(places "$vehicle" | tr -d '\n ')"
 done
-alive world || fail "the world is gone: $(tail -n 3 "$SCRATCH/world.log")"
+for member in world observer; do
+  alive "$member" || fail "$member is gone: $(tail -n 3 "$SCRATCH/$member.log")"
+done
+
+line=$(lines_of a2)
+ip address delete 192.0.2.1/24 dev fleet
+ip address add 192.0.2.2/24 dev fleet
+ends "the world's address" world fleet
+ends "the observer's address" observer fleet
+start world2 giveway-world --interface fleet --checkpoint "$SCRATCH/world.checkpoint"
+await "the world's address: resumes" 5 world2 'resumes from the checkpoint'
+await "the world's address: a drives on" 10 a2 cruise "$line"
 no_contact
 [[ $failures -eq 0 ]]

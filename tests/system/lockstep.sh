@@ -8,7 +8,7 @@ scenario=${1:?name a scenario} seed=${2:?give a seed} faults=${3:-}
 
 load=()
 for ((core = 0; core < 2 * $(nproc); core++)); do
-  timeout 120 sh -c 'while :; do :; done' &
+  timeout 120 nice -n 10 sh -c 'while :; do :; done' & # other tests run at the same time
   load+=($!)
 done
 trap 'kill "${load[@]}" 2>/dev/null; rm -rf "$SCRATCH"' EXIT

@@ -52,7 +52,9 @@ interrupted() {
   [[ $code -eq 0 ]] || fail "$name: exit code $code by Ctrl-C"
 }
 
-start_run intersection_yield
+# Longer than all that is looked at, also on a slow machine.
+sed 's/m: 2\.5/m: 9/' "$REPOSITORY/config/scenarios/intersection_yield.textproto" >long.textproto
+start_run long.textproto
 observe 0 "top" top --domain "$domain" --once
 grep -q '^world running' out || fail "top: no world in $(cat out)"
 grep -Eq '^ +1  cooperative' out || fail "top: no vehicle in $(cat out)"
@@ -92,7 +94,10 @@ observe 2 "no such profiles" listen fleet/beacon --domain "$domain" --qos no_suc
 }
 interrupted "top" top --domain "$domain"
 interrupted "listen" listen fleet/beacon --domain "$domain"
-wait "$fleet" || fail "watching changed the run: $(cat run.json)"
+wait "$fleet" || excused run.json logs || fail "watching changed the run: $(cat run.json)"
+# Kept: the next run would take it, the lowest that is free.
+exec {kept}<"/tmp/giveway-domain-$domain.lock"
+flock "$kept"
 grep -q 'matched: vehicle 1' logs/vehicle-2.log || fail "the log has no event: $(cat logs/*2.log)"
 
 # The domain is free now: there is no fleet.

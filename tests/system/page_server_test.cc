@@ -9,9 +9,11 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 namespace giveway {
 namespace {
@@ -39,19 +41,26 @@ std::uint16_t FreePort() {
   return ntohs(address.sin_port);
 }
 
+int Connected(std::uint16_t port, int receive_buffer = 64 << 10) {
+  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+  setsockopt(socket, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof(receive_buffer));
+  const timeval patience{.tv_sec = 5, .tv_usec = 0};
+  setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
+  const sockaddr_in address = Loopback(port);
+  EXPECT_EQ(::connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+  return socket;
+}
+
+void Send(int socket, std::string_view text) {
+  EXPECT_EQ(::send(socket, text.data(), text.size(), MSG_NOSIGNAL),
+            static_cast<ssize_t>(text.size()));
+}
+
 // Follows the stream with the smallest buffer that the kernel allows.
 class SlowClient {
  public:
-  explicit SlowClient(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    const int small = 4096;
-    setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &small, sizeof(small));
-    const timeval patience{.tv_sec = 5, .tv_usec = 0};
-    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
-    const sockaddr_in address = Loopback(port);
-    EXPECT_EQ(::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
-    constexpr std::string_view kRequest = "GET /api/v1/stream HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n";
-    EXPECT_EQ(::send(socket_, kRequest.data(), kRequest.size(), MSG_NOSIGNAL),
-              static_cast<ssize_t>(kRequest.size()));
+  explicit SlowClient(std::uint16_t port) : socket_(Connected(port, 4096)) {
+    Send(socket_, "GET /api/v1/stream HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
   }
   ~SlowClient() { ::close(socket_); }
   SlowClient(const SlowClient&) = delete;
@@ -85,7 +94,10 @@ class PageServerTest : public ::testing::Test {
 
   static PageSources Sources(const FrameBoard* board) {
     PageSources sources;
-    sources.get = [](const auto&, const auto&) { return std::nullopt; };
+    sources.get = [](const std::string& path, const auto&) -> std::optional<PageAnswer> {
+      if (path != "/livez") return std::nullopt;
+      return PageAnswer{.body = "live"};
+    };
     sources.scene = "{}";
     sources.frames = board;
     return sources;
@@ -136,6 +148,62 @@ TEST_F(PageServerTest, AClientThatReadsNothingIsLeft) {
   const SlowClient client(port_);
   ASSERT_TRUE(Within(seconds(5), 1));
   EXPECT_TRUE(Within(seconds(15), 0));
+}
+
+// Of sockets, closed at the end.
+class Silent {
+ public:
+  Silent(std::uint16_t port, int count) {
+    for (int n = 0; n < count; ++n) sockets_.push_back(Connected(port));
+  }
+  ~Silent() {
+    for (const int socket : sockets_) ::close(socket);
+  }
+  Silent(const Silent&) = delete;
+  Silent& operator=(const Silent&) = delete;
+
+ private:
+  std::vector<int> sockets_;
+};
+
+// What is answered to these parts of a request, sent a tenth of a second apart.
+std::string AnswerTo(std::uint16_t port, const std::vector<std::string>& parts) {
+  const int socket = Connected(port);
+  for (const std::string& part : parts) {
+    if (&part != &parts.front()) std::this_thread::sleep_for(milliseconds(100));
+    Send(socket, part);
+  }
+  std::string answer;
+  std::array<char, 4096> some;
+  for (ssize_t got = 1; got > 0;) {
+    got = ::recv(socket, some.data(), some.size(), 0);
+    if (got > 0) answer.append(some.data(), static_cast<std::size_t>(got));
+  }
+  ::close(socket);
+  return answer;
+}
+
+// Each held a thread for two seconds: ten connections a second, and no other was answered.
+TEST_F(PageServerTest, ConnectionsThatSayNothingKeepNobodyFromAnAnswer) {
+  for (const int count : {40, 300}) {
+    const Silent silent(port_, count);
+    const auto asked = std::chrono::steady_clock::now();
+    const std::string answer = AnswerTo(port_, {"GET /livez HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n"});
+    EXPECT_TRUE(answer.starts_with("HTTP/1.1 200")) << count << ": " << answer;
+    EXPECT_LT(std::chrono::steady_clock::now() - asked, seconds(2)) << count;
+  }
+}
+
+TEST_F(PageServerTest, ARequestThatComesInPartsIsAnswered) {
+  const std::string answer =
+      AnswerTo(port_, {"GET /livez HT", "TP/1.1\r\nHost: 127.0.0.1\r\n", "\r\n"});
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 200")) << answer;
+}
+
+TEST_F(PageServerTest, ARequestThatNeverEndsIsLeft) {
+  const auto asked = std::chrono::steady_clock::now();
+  AnswerTo(port_, {"GET /livez HTTP/1.1\r\n"});
+  EXPECT_LT(std::chrono::steady_clock::now() - asked, seconds(4));
 }
 
 TEST_F(PageServerTest, AStreamStartsWithAFrameThatIsNew) {

@@ -80,6 +80,14 @@ sed 's/_DOMAIN=7/_DOMAIN=8/; /--qos/s/giveway.mine/elsewhere\/mine/' compose.yam
 qos 2 "a fleet that is split" check --compose split.yaml --json
 says "a fleet that is split" '[.findings[].rule] == ["domain_split", "qos_not_mounted"]
   and all(.findings[]; .line > 0 and .subject == "vehicle")'
+# Compose takes variables from the .env next to its file; a set it named was not looked at.
+# shellcheck disable=SC2016 # it is for compose to expand
+sed 's/GIVEWAY_DOMAIN=7\]/GIVEWAY_DOMAIN=7, "GIVEWAY_QOS=$FLEET_SET"]/; s/ --qos .*//' compose.yaml >variable.yaml
+echo 'FLEET_SET=no_such_set' >.env
+qos 2 "a set that .env names" check --compose variable.yaml --json
+says "a set that .env names" 'any(.findings[]; .rule == "unreadable_file")'
+FLEET_SET=default qos 0 "this shell counts before .env" check --compose variable.yaml
+rm .env
 echo "services: [" >none.yaml
 qos 2 "a compose file that is none" check --compose none.yaml --json
 says "a compose file that is none" '.findings[0].rule == "malformed_yaml"'
@@ -110,9 +118,33 @@ qos 0 "no difference" show --diff default "$sets/default.xml"
 qos 1 "a difference" show --diff default lossy_radio --json
 says "a difference" 'any(.differences[]; .profile == "fleet_beacon_reader" and
   .policy == "deadline" and .a.value == "150 ms" and .b.value == "200 ms")'
+# Of sets that differed in transports alone it said that nothing did.
+sed 's/<receiveBufferSize>1048576</<receiveBufferSize>2097152</' "$sets/default.xml" >buffer.xml
+qos 1 "a difference of a transport" show --diff default buffer.xml --json
+says "a difference of a transport" '.differences | length == 1 and
+  (.[0] | .profile == "transport giveway_udp" and .policy == "receiveBufferSize" and .b.value == "2097152")'
+qos 0 "a difference of another profile" show fleet_beacon_writer --diff default buffer.xml
+qos 1 "shared memory" show --diff default same_host --json
+says "shared memory" 'any(.differences[]; .profile | startswith("transport "))'
 qos 2 "show of nothing" show no_such_profile
 qos 2 "show of a broken file" show --qos cut.xml
 qos 2 "no verb" lint
+
+# fails_to_write CODE ARGUMENTS...: what is longer than stdio's buffer fails as it is put, not as the rest is
+# flushed: the exit code was that of success.
+fails_to_write() {
+  local wanted=$1 code=0
+  shift
+  "$FLEETCTL" "$@" >/dev/full 2>err || code=$?
+  [[ $code -eq $wanted ]] || fail "fleetctl $* on a full disk: exit code $code: $(<err)"
+}
+if [[ -w /dev/full ]]; then
+  fails_to_write 2 qos show --json
+  fails_to_write 2 qos check default --json
+  fails_to_write 2 faults list --json
+  fails_to_write 2 doctor --json
+  fails_to_write 1 virtual crossing --seeds 1..2 --json
+fi
 
 crossing() { # SET: starts a crossing with it; sets $domain
   : >run.json.err # before there is anything to look for

@@ -12,6 +12,7 @@ start first giveway-vehicle --id 1 --qos "$SAME_HOST"
 start second giveway-vehicle --id 2 --qos "$SAME_HOST"
 await "the first drives" 15 first 'cruise'
 await "the second drives" 15 second 'cruise'
+await "the second hears the first" 15 second 'beacon_heard: vehicle 1' # who was never heard does not leave
 
 mapfile -t locks < <(find "/proc/${PID[first]}/fd" -lname '/dev/shm/fast*_port*_el' -printf '%l\n')
 [[ ${#locks[@]} -ge 2 ]] || fail "the first has ${#locks[@]} ports in shared memory"

@@ -49,4 +49,16 @@ malformed no_mark dd if=/dev/zero of=no_mark bs=1 count=1 conv=notrunc status=no
 malformed one_byte dd if=/dev/zero of=one_byte bs=1 seek=30000 count=5 conv=notrunc status=none
 malformed other_format sed -i '1s/[0-9]*$/99/' other_format
 
+# What a flag is not for is refused: with --json an MCAP file was served as a page until Ctrl-C.
+refused() { # TEXT WORDS...
+  local text=$1 code=0
+  shift
+  timeout 10 "$FLEETCTL" replay "$@" >"$SCRATCH/out" 2>&1 || code=$?
+  { [[ $code -eq 2 ]] && grep -q -- "$text" "$SCRATCH/out"; } || fail "replay $*: exit code $code: $(cat "$SCRATCH/out")"
+}
+printf '\x89MCAP0\r\n' >"$SCRATCH/run.mcap"
+refused 'leave out --json' "$SCRATCH/run.mcap" --json
+refused 'leave out --json' "$SCRATCH/run.mcap" --trace "$SCRATCH/trace.tsv"
+refused 'for a single MCAP file' "$crossing/vehicle-1.recording" --html "$SCRATCH/page.html"
+
 [[ $failures -eq 0 ]]

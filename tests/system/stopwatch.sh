@@ -33,6 +33,7 @@ refused 'no_such.xml' --qos no_such.xml
 stopwatch 0 10 "the table" --table
 grep -Eq '^ +hung +must see +must see +if manual +none +none *$' out || fail "the table: $(cat out)"
 grep -Eq '^ +lease +10125 ms' out || fail "the table: $(cat out)"
+refused 'table' --table --json
 
 stopwatch 0 300 "the shipped profile" --quick --json
 says "the shipped profile" '.verdict == "kept" and .findings == []
@@ -63,7 +64,7 @@ kill -INT $watch
 code=0
 wait $watch || code=$?
 [[ $code -eq 1 ]] || fail "interrupted: exit code $code: $(cat err)"
-grep -q 'BROKEN kill: interrupted' out || fail "interrupted: $(cat out)"
+grep -q 'not tried: kill: interrupted' out || fail "interrupted: $(cat out)"
 all_gone "${domain:-0}" 30 || fail "interrupted: left behind: $(processes_on "$domain")"
 
 [[ $failures -eq 0 ]]

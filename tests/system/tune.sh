@@ -58,8 +58,13 @@ env PATH="$SCRATCH/nothing" "$FLEETCTL" qos tune "${small[@]}" --out small >out 
 grep -q 'gnuplot-nox' err || fail "without gnuplot: $(cat err)"
 grep -q 'No pictures' small/report.html || fail "without gnuplot: report.html says nothing of it"
 rm small/trials/base-0.json
+# As a trial leaves it that was killed: such recordings were read in place of the repetition's own.
+mkdir -p small/running/base-0
+for id in 1 2 3; do touch "small/running/base-0/vehicle-$id.recording"; done
 tune "0 1" "one is missing" "${small[@]}" --out small
 [[ -s small/trials/base-0.json ]] || fail "one is missing: it was not measured again"
+jq -e '(.detections | length) > 0 and .age_mean_ms > 0' small/trials/base-0.json >/dev/null ||
+  fail "one is missing: a former recording was read: $(cat small/trials/base-0.json)"
 cmp -s {before,small}/trials/d190_l250_be_h5-0.json || fail "one is missing: another changed"
 tune 2 "another search there" "${small[@]}" --seed 9 --out small
 grep -q 'another' err || fail "another search there: $(cat err)"

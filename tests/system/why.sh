@@ -2,6 +2,7 @@
 # fleetctl why on real processes: each reason why one vehicle cannot receive another is named, and the probe
 # agrees; what is no reason is not named. Other namespaces need root, and are skipped without it.
 source "$(dirname "${BASH_SOURCE[0]}")/../support/members.sh"
+source "$REPOSITORY/services/setup.sh"
 unset GIVEWAY_QOS GIVEWAY_INTERFACE GIVEWAY_DOMAIN
 cd "$SCRATCH"
 take_domain
@@ -138,6 +139,30 @@ if [[ $(id -u) -eq 0 ]] && unshare -nm true 2>/dev/null; then
 else
   echo "not root: other namespaces are left out" >&2
 fi
+
+# A fleet that is found through a server alone, which the processes themselves name; and one of its domain
+# that does not ask there.
+take_domain
+server=(fast-discovery-server -l 127.0.0.1 -p $((7000 + DOMAIN)))
+[[ $(debian_version) -ge 13 ]] || server+=(-i 0) # without a number 2.9.1 starts none
+"${server[@]}" >server.log 2>&1 &
+PID[server]=$!
+by_server=(--discovery-server "127.0.0.1:$((7000 + DOMAIN))")
+start world4 giveway-world "${by_server[@]}"
+start thirteen giveway-vehicle --id 13 "${by_server[@]}"
+GIVEWAY_DISCOVERY_SERVER=${by_server[1]} start fourteen giveway-vehicle --id 14
+start fifteen giveway-vehicle --id 15
+for name in thirteen fourteen; do await "$name drives" 20 "$name" cruise; done
+for pair in 'thirteen fourteen' 'fourteen world4'; do
+  read -r a b <<<"$pair"
+  why 0 "by a server: $pair" "pid:${PID[$a]}" "pid:${PID[$b]}" --seconds 8 --json
+  says "by a server: $pair" '.hears and .probed and .disagree == false
+    and [.findings[].rule] == ["discovery_by_server"] and all(.topics[]; .verdict == "hears" and .samples > 0)'
+done
+why 1 "not by the server" "pid:${PID[fifteen]}" "pid:${PID[thirteen]}" --seconds 1.5 --json
+says "not by the server" '.disagree == false and .topics[0].reasons[0] == "discovery_apart"
+  and any(.findings[]; .rule == "discovery_apart" and (.values | test("SIMPLE.*CLIENT")))'
+DOMAIN=$first
 
 # Its id is known only from discovery.
 start twelve giveway-vehicle

@@ -18,7 +18,7 @@ restart() {
     await "$what: $vehicle drives" 5 "$vehicle" 'cruise' "$(lines_until "$vehicle" 'drives on in world')"
     alive "$vehicle" || fail "$what: $vehicle is gone"
   done
-  await "$what: the world says so" 1 "$name" "$says"
+  await "$what: the world says so" 10 "$name" "$says"
 }
 
 # The number of the last line that matches.
@@ -54,9 +54,9 @@ wait "${PID[d]}" || code=$?
 unset "PID[d]"
 [[ $code -eq 0 ]] || fail "after the end: exit code $code of d, which does not stay"
 for vehicle in a b c; do
-  await "its run is over: $vehicle" 2 "$vehicle" 'the run has ended: waits for the next world'
+  await "its run is over: $vehicle" 10 "$vehicle" 'the run has ended: waits for the next world'
 done
-restart world5 "after one that was asked to stop" 'started with' --duration 2
+restart world5 "after one that was asked to stop" 'started with' --duration 8
 wait "${PID[world5]}" # its run is over
 restart world6 "after one whose run was over" 'started with'
 

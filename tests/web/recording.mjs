@@ -1,12 +1,13 @@
 // Recordings in the field's own readers: every beacon decoded from its CDR by the IDL within the file,
 // and equal to what fleetctl listen says; and what is left of a recorder that was killed.
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
+import { monitorEventLoopDelay } from "node:perf_hooks";
 import { parseIDL } from "@foxglove/omgidl-parser";
 import { MessageReader } from "@foxglove/omgidl-serialization";
 import { McapIndexedReader, McapStreamReader } from "@mcap/core";
 import lz4 from "lz4js";
-import { check, domainOf, expect, finish, start, stop, until, work } from "./support.mjs";
+import { check, domainOf, expect, finish, passedOrLate, start, stop, until, work } from "./support.mjs";
 
 const decompressHandlers = { lz4: (bytes) => lz4.decompress(bytes) };
 
@@ -72,7 +73,11 @@ async function killAt(i) {
   await stop(recorder, "SIGKILL");
   killed.push({ file, at_ms });
 }
+await until("the fleet speaks", () => listener.stdout.length > 0);
+const stalls = monitorEventLoopDelay({ resolution: 10 });  // of the machine, while this process does nothing
+stalls.enable();
 for (let i = 0; i < 20; i += 5) await Promise.all([0, 1, 2, 3, 4].map((more) => killAt(i + more)));
+stalls.disable();
 await run.ended;
 await stop(listener, "SIGINT");
 
@@ -124,11 +129,18 @@ await check("recording: after kill -9 all but the last second is there", () => {
     return at_ms - Number(left.at(-1).logTime / 1000000n);
   });
   console.log(`        ${lost.length} kills, ${Math.min(...lost)} to ${Math.max(...lost)} ms lost`);
-  expect(lost.length === 20 && Math.max(...lost) <= 1000, `ms lost: ${lost}`);
+  const stall_ms = stalls.max / 1e6;
+  // How late a recorder can be: the one that ran all the time hears a fleet that speaks every 50 ms.
+  const [from_ms, to_ms] = [Math.min, Math.max].map((of) => of(...killed.map(({ at_ms }) => at_ms)));
+  const heard_ms = messages.map((message) => Number(message.logTime / 1000000n))
+    .filter((ms) => ms > from_ms - 2000 && ms < to_ms);
+  const gap_ms = heard_ms.slice(1).reduce((most, ms, i) => Math.max(most, ms - heard_ms[i]), 0);
+  expect(lost.length === 20 && Math.max(...lost) <= 1000 + stall_ms + gap_ms,
+    `ms lost: ${lost}; stalls of ${stall_ms} ms, and of ${gap_ms} ms between what a recorder heard`);
 });
 await check("recording: run --record-topics gives the same, with the brains' recordings within", async () => {
   const code = await run.ended;
-  expect(code === 0, `exit code ${code}: ${run.stderr}`);
+  expect(passedOrLate(run, code), `exit code ${code}: ${run.stdout.slice(-400)} ${run.stderr}`);
   const beacons = new Set((await readIndexed(topicsFile)).filter((m) => m.topic === "fleet/beacon")
     .map(({ value }) => `${value.vehicle}.${value.boot_epoch}.${value.seq}`));
   const others = messages.filter((m) => m.topic === "fleet/beacon");
@@ -150,6 +162,23 @@ await check("recording: export gives the same as CSV and JSON", async () => {
   const json = start("fleetctl", "export", whole, "--topic", "world/event", "--json");
   expect(await json.ended === 0, json.stderr);
   expect(json.stdout.trim().split("\n").map((line) => JSON.parse(line)).some((e) => e.kind === "halted"), "halted");
+});
+await check("recording: export of a damaged file says so, as CSV and as JSON", async () => {
+  const damaged = `${whole}.damaged`;
+  const bytes = readFileSync(whole);
+  const middle = Math.floor(bytes.length * 0.6);  // wherever that is: in a chunk, or in an index
+  bytes.fill(0xff, middle, middle + 64);
+  writeFileSync(damaged, bytes);
+  for (const format of ["--csv", "--json"]) {
+    const exported = start("fleetctl", "export", damaged, "--topic", "fleet/beacon", format);
+    expect(await exported.ended === 1, `${format}: exit code ${await exported.ended}`);
+    expect(exported.stderr.includes("damaged"), `${format}: ${exported.stderr}`);
+  }
+});
+await check("recording: export to a reader that ends early is no failure", async () => {
+  const exported = start("fleetctl", "export", whole, "--topic", "fleet/beacon", "--csv");
+  exported.child.stdout.destroy();
+  expect(await exported.ended === 0, `exit code ${await exported.ended}: ${exported.stderr}`);
 });
 await check("recording: a file that is there already is not overwritten", async () => {
   const again = start("fleetctl", "record", whole, "--domain", domain, "--duration", "60s", "--last", "1s");

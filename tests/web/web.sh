@@ -30,7 +30,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 code=0
 export ROS2_IDL=$project/idl/ros2.idl
-for part in recording ros2 report foxglove live replay; do
+for part in recording ros2 report page foxglove live replay; do
   GIVEWAY_BIN_DIR=$programs WORK=$work timeout 110 node "$out/$part.mjs" || code=1
 done
 exit "$code"

@@ -46,7 +46,7 @@ CampaignPlan LoadCampaign(const std::string& path, std::span<const std::string_v
     Gather(
         [&] {
           LoadFaults(plan.fault_file);
-          plan.fault_text = ReadTextFile(ResolveFaults(plan.fault_file));
+          plan.fault_text = ReadTextFile(ResolveFaults(plan.fault_file), kMaxFaultFileBytes);
         },
         &problems);
   }

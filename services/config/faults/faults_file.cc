@@ -9,17 +9,11 @@
 #include "services/config/text_file.h"
 
 namespace giveway {
-namespace {
-
-// A list that a soak of weeks has written: 51 MB for 30 days of `everything` with 20 vehicles.
-constexpr std::uintmax_t kMaxListBytes = 64U << 20;
-
-}  // namespace
 
 faults::FaultFile LoadFaults(const std::string& path) {
   const std::string name = ResolveFaults(path);
-  const Section root =
-      ParseText(name, ReadTextFile(name, kMaxListBytes), schema::FaultFile::default_instance());
+  const Section root = ParseText(name, ReadTextFile(name, kMaxFaultFileBytes),
+                                 schema::FaultFile::default_instance());
   faults::FaultFile file = ReadFaultFile(root);
   file.name = name;
   std::vector<Problem> problems = root.Problems();

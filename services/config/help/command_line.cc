@@ -1,6 +1,7 @@
 #include "services/config/help/command_line.h"
 
 #include <cstdio>
+#include <iostream>
 #include <memory>
 
 #include "services/config/help/help_format.h"
@@ -40,14 +41,20 @@ std::map<std::string, std::string> CommandLine::Parse(int argc, const char* cons
     if (option->count() > 0) given.emplace(option->get_name(), value);
   }
   for (const CLI::Option* given_switch : switches_) {
-    if (given_switch->count() > 0) given.emplace(given_switch->get_name(), "1");
+    // "true", or what was written behind "=".
+    if (given_switch->count() > 0) {
+      given.emplace(given_switch->get_name(), given_switch->results().back());
+    }
   }
   return given;
 }
 
 int CommandLine::Exit(const CLI::ParseError& error) {
   constexpr int kUsageError = 2;
-  if (error.get_exit_code() == 0) return app_.exit(error);
+  if (error.get_exit_code() == 0) {
+    const int code = app_.exit(error);
+    return std::cout.flush() ? code : kUsageError;  // a full disk
+  }
   std::fprintf(stderr, "command line: %s%s; see %s --help\n", error.what(), Meant().c_str(),
                app_.get_name().c_str());
   return kUsageError;

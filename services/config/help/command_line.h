@@ -22,6 +22,7 @@ class CommandLine {
   void Add(const std::string& flag, const std::string& value_name, const std::string& help);
   // Its value may be left out.
   void AddOptional(const std::string& flag, const std::string& value_name, const std::string& help);
+  // It may have a value, as its twin has: --admin=false. The last one counts.
   void AddSwitch(const std::string& flag, const std::string& help);
 
   // The flags given and their values. Throws CLI::ParseError.

@@ -1,11 +1,36 @@
 #include "services/fleetctl/args/flag_checks.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <exception>
 #include <optional>
 
 #include "services/config/flags.h"
 #include "services/config/impair.h"
 
 namespace giveway::fleetctl {
+
+std::optional<double> FiniteNumber(const std::string& text) {
+  std::size_t used = 0;
+  try {
+    const double value = std::stod(text, &used);
+    if (used == text.size() && std::isfinite(value)) return value;
+  } catch (const std::exception&) {
+  }
+  return std::nullopt;
+}
+
+std::string WhyNotBetween(const std::string& text, double least, double most) {
+  const std::optional<double> value = FiniteNumber(text);
+  if (value && *value >= least && *value <= most) return {};
+  return fmt::format("must be a number from {} to {}, not '{}'", least, most, text);
+}
+
+CLI::Validator Between(double least, double most) {
+  return {[=](const std::string& text) { return WhyNotBetween(text, least, most); },
+          fmt::format("FLOAT in [{} - {}]", least, most)};
+}
 
 std::string CheckNotEmpty(const std::string& text) {
   return text.empty() ? "must not be empty" : "";

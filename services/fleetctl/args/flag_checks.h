@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,13 @@ namespace giveway::fleetctl {
 // Most vehicles of a fleet that a verb starts, and of one that it only calculates for.
 inline constexpr std::uint32_t kMostStarted = 1024;
 inline constexpr std::uint32_t kMostReckonedWith = 4096;
+
+// The number that is all of the text, if it is finite.
+std::optional<double> FiniteNumber(const std::string& text);
+// Empty, or why the text is no number from `least` to `most`.
+std::string WhyNotBetween(const std::string& text, double least, double most);
+// The same for a flag, whose help names the range. CLI11's own range check lets "nan" pass.
+CLI::Validator Between(double least, double most);
 
 std::string CheckNotEmpty(const std::string& text);
 std::string CheckImpairment(const std::string& text);

@@ -11,7 +11,8 @@ void AddObserverFlags(CLI::App* verb, ObserverOptions* options) {
       ->envname("GIVEWAY_DOMAIN");
   AddInterfaceFlag(verb, &options->interface);
   AddDiscoveryFlag(verb, &options->discovery_servers);
-  verb->add_option("--area", options->area, "Whose beacons; the scenario names it")
+  verb->add_option("--area", options->area,
+                   "Area of the fleet, the first part of its beacons' partition")
       ->check(CheckNotEmpty)
       ->capture_default_str();
   verb->add_option(

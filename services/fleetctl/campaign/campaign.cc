@@ -52,8 +52,7 @@ void PrintError(const std::string& text) { std::fputs(text.c_str(), stderr); }
 // False, with a message, unless stdout took all of it. By fputs, since fmt::print throws where a
 // line longer than the buffer is not written.
 bool Print(const std::string& text, const char* what) {
-  std::fputs(text.c_str(), stdout);
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
+  if (PrintAll(text)) return true;
   PrintError(fmt::format("cannot write {} to stdout\n", what));
   return false;
 }
@@ -209,8 +208,10 @@ int RunCampaignShard(const CampaignShardOptions& options) {
     return FindOrRun(options);
   } catch (const InputError&) {
     throw;
-  } catch (const OutputError&) {
-    throw;
+  } catch (const OutputError& error) {
+    if (!error.MayPass()) throw;
+    PrintError(std::string(error.what()) + "; then run the shard again\n");
+    return kShardNotDone;
   } catch (const std::exception& lacking) {  // no thread, no memory: main would exit with 2
     PrintError(fmt::format("the shard cannot be run now: {}; run it again\n", lacking.what()));
     return kShardNotDone;

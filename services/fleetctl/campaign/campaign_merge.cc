@@ -66,7 +66,7 @@ void FindLacking(const NamedShard& first, const std::map<std::uint32_t, std::str
       {.file = first.result.campaign,
        .field = "index",
        .value = NumberRanges(lacking),
-       .message = fmt::format("lacks: {} of {} shards", lacking.size(), of),
+       .message = fmt::format("missing: {} of {} shards", lacking.size(), of),
        .remedy = fmt::format("run each of them by the same fleetctl: campaign shard PLAN "
                              "--of {} --index {}; PLAN is that of the name {} and hash {}",
                              of, lacking.front(), first.result.campaign, first.result.plan)});

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
-#include <streambuf>
+#include <istream>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -33,12 +33,12 @@ std::string WhyNoResults(const std::string& file) {
 enum class LineKind { kOther, kResult, kTooLong };
 
 // Advances to the start of the next line. `line` gets the text of a result, else is left empty.
-LineKind TakeLine(std::streambuf* text, std::string* line) {
+LineKind TakeLine(std::istream* text, std::string* line) {
   constexpr int kEnd = std::char_traits<char>::eof();
   line->clear();
-  const bool is_result = text->sgetc() == '{';
+  const bool is_result = text->peek() == '{';
   bool too_long = false;
-  for (int c = text->sbumpc(); c != kEnd && c != '\n'; c = text->sbumpc()) {
+  for (int c = text->get(); c != kEnd && c != '\n'; c = text->get()) {
     if (!is_result || too_long) continue;
     line->push_back(static_cast<char>(c));
     too_long = line->size() > kMaxFileBytes;
@@ -60,8 +60,8 @@ void ReadResults(const std::string& file, std::vector<NamedShard>* shards, Probl
   if (!stream) return complain(file, "cannot be read");
   std::size_t results = 0;
   std::string line;
-  for (std::size_t number = 1; stream.rdbuf()->sgetc() != std::char_traits<char>::eof(); ++number) {
-    const LineKind kind = TakeLine(stream.rdbuf(), &line);
+  for (std::size_t number = 1; stream.peek() != std::char_traits<char>::eof(); ++number) {
+    const LineKind kind = TakeLine(&stream, &line);
     if (kind == LineKind::kOther) continue;
     const std::string where = results++ == 0 ? file : fmt::format("{}:{}", file, number);
     if (kind == LineKind::kTooLong) {
@@ -77,6 +77,7 @@ void ReadResults(const std::string& file, std::vector<NamedShard>* shards, Probl
       shards->push_back({where, std::move(read.result)});
     }
   }
+  if (stream.bad()) return complain(file, "cannot be read to its end");
   if (results == 0) complain(file, "no line of it is a result");
 }
 

@@ -33,21 +33,13 @@ CaseOptions OptionsOf(const CampaignPlan& plan, const std::string& generator) {
   return options;
 }
 
-struct RunStopped {};
-
 // nullopt if it was stopped.
 std::optional<BatchTotals> RunOne(const CaseMaker& maker, std::uint32_t seed,
                                   const std::atomic<bool>& stop) {
-  const VirtualCase made = maker.Make(seed);
-  const auto watch = [&stop](const sim::VirtualFleet&) {
-    if (stop) throw RunStopped{};
-  };
+  const std::optional<sim::VirtualOutcome> outcome = RunUnlessStopped(maker.Make(seed), stop);
+  if (!outcome) return std::nullopt;
   BatchTotals totals;
-  try {
-    totals.Add(seed, sim::RunVirtually(made.scenario, made.plan, watch), maker.HasExpectations());
-  } catch (const RunStopped&) {
-    return std::nullopt;
-  }
+  totals.Add(seed, *outcome, maker.HasExpectations());
   return totals;
 }
 

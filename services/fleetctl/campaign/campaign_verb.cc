@@ -18,11 +18,11 @@ on stderr around the object, where it would mix with it in the log of a containe
 Examples
   fleetctl campaign shard nightly --of 200 --index 0 --out results
   seq 200 | parallel -N0 fleetctl campaign shard nightly --of 200 > nightly.log
-  parallel fleetctl campaign shard nightly --of 200 --index ::: 17 40 >> nightly.log  # those that lack
+  parallel fleetctl campaign shard nightly --of 200 --index ::: 17 40 >> nightly.log  # the missing ones
 
 Exit code: 0 all held, 1 something did not, 2 could not run. Of what may end otherwise the next time:
-75 no thread or memory, or the object could not be written to the file or to stdout; 130 interrupted
-by Ctrl-C, 143 by SIGTERM: no result.
+75 no thread or memory, or the object could not be written to the file or to stdout, or its folder
+not be made, of a full disk, say; 130 interrupted by Ctrl-C, 143 by SIGTERM: no result.
 )";
 
 constexpr const char* kMergeFooter = R"(
@@ -34,8 +34,8 @@ Examples
   fleetctl campaign merge results/*.json
   fleetctl campaign merge results/*.json --json | jq -r '.failing[].command'
 
-Exit code: 0 all held, 1 something did not, 2 no result: a shard lacks, stands twice, is damaged or
-another's, or the report could not be written.
+Exit code: 0 all held, 1 something did not, 2 no result: a shard is missing, given twice, damaged or
+of another campaign, or the report could not be written.
 )";
 
 constexpr const char* kCampaignFooter = R"(

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
@@ -12,9 +11,11 @@
 #include "services/fleetctl/doctor/memory_read.h"
 #include "services/fleetctl/doctor/memory_removal.h"
 #include "services/fleetctl/output/finding_text.h"
+#include "services/fleetctl/output/output_file.h"
 #include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/runtime/json.h"
+#include "services/runtime/utf8.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -29,7 +30,7 @@ std::string Text(const HostFacts& host, const std::vector<Removal>& removals,
   std::string text;
   for (const Removal& removal : removals) text += Line(removal) + "\n";
   for (const qos::Finding& finding : findings) text += ToText(finding, "host");
-  for (const std::string& fact : host.not_known) text += Shown("not known: " + fact) + "\n";
+  for (const std::string& fact : host.not_known) text += Printable("not known: " + fact) + "\n";
   return text +
          (host.processes.size() == 1 ? "1 process"
                                      : fmt::format("{} processes", host.processes.size())) +
@@ -105,8 +106,7 @@ int RunDoctor(const DoctorOptions& options) {
   if (!options.quiet) {
     const std::string text = options.json ? ToJson(host, removals, findings)
                                           : ForTerminal(Text(host, removals, findings));
-    std::fputs(text.c_str(), stdout);
-    if (std::fflush(stdout) != 0) return kCouldNotRun;
+    if (!PrintAll(text)) return kCouldNotRun;
   }
   return findings.empty() ? 0 : 1;
 }

@@ -48,9 +48,10 @@ struct HostFacts {
   std::vector<HostInterface> interfaces;
   std::optional<std::int64_t> receive_buffer_max;   // bytes, net.core.rmem_max
   std::optional<std::vector<std::uint16_t>> ports;  // UDP ports taken in this network namespace
-  std::optional<PortRange> ephemeral;               // that the system hands out by itself
-  std::vector<PortRange> reserved;                  // of those: never handed out
-  std::optional<std::uint64_t> open_files_limit;    // of this shell
+  std::optional<std::vector<std::uint16_t>> tool_ports;  // of those, fleetctl's and observers'
+  std::optional<PortRange> ephemeral;                    // that the system hands out by itself
+  std::vector<PortRange> reserved;                       // of those: never handed out
+  std::optional<std::uint64_t> open_files_limit;         // of this shell
   std::vector<Surroundings> surroundings;
   ClockFacts clock;
   std::vector<std::string> not_known;  // "pid 12: maps: Permission denied"

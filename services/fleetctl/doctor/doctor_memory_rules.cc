@@ -175,9 +175,12 @@ void CheckMemoryRoom(const HostFacts& host, qos::Findings* findings) {
         "The segment of one more participant does not fit: it dies of SIGBUS on its first write "
         "there; a vehicle or a world comes back over UDP alone.");
   } else {
-    // The fleet also needs a world and an observer. Processes that run have their segments.
+    // The fleet also needs a world and an observer. Those of it that run have their segments.
     const std::uint64_t all = host.vehicles + std::uint64_t{qos::kOtherParticipants};
-    const std::uint64_t others = all - std::min<std::uint64_t>(all, host.processes.size());
+    const auto have = std::ranges::count_if(host.processes, [&](const ProcessSituation& process) {
+      return process.launch.domain == host.domains.front() && UsesSharedMemory(process);
+    });
+    const std::uint64_t others = all - std::min(all, static_cast<std::uint64_t>(have));
     if (memory.free_bytes >= others * each) return;
     add(Severity::kError, "memory_small", others * each,
         fmt::format(

@@ -65,6 +65,7 @@ void Add(Severity severity, const char* rule, std::string values, std::string co
 
 void CheckTaken(const HostFacts& host, const DomainPorts& ports, std::uint32_t domain,
                 qos::Findings* findings) {
+  if (!host.tool_ports) return;  // they may be theirs
   std::set<std::uint16_t> strange;
   for (const std::uint16_t port : *host.ports) {
     if (ports.Contains(port)) strange.insert(port);
@@ -75,6 +76,7 @@ void CheckTaken(const HostFacts& host, const DomainPorts& ports, std::uint32_t d
       strange.erase(port);
     }
   }
+  for (const std::uint16_t port : *host.tool_ports) strange.erase(port);
   if (strange.empty()) return;
   Add(Severity::kWarning, "ports_taken",
       fmt::format("domain {}: no process of a fleet holds {} of it: {}", domain,
@@ -160,8 +162,7 @@ void CheckMulticast(const HostFacts& host, qos::Findings* findings) {
         findings);
     return;
   }
-  const std::int64_t protocol = Planned(host, qos::Policy::kDiscoveryProtocol, qos::kSimple);
-  if (protocol != qos::kSimple) return;
+  if (DiscoveryProtocol(host.planned).value_or(qos::kSimple) != qos::kSimple) return;
   for (const HostInterface& one : meant) {
     if (one.up) CheckCarries(host, one, findings);
   }

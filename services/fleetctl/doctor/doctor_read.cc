@@ -39,6 +39,7 @@ constexpr std::int64_t kLookNs = 50'000;
 ProcessSituation Planned(const DoctorOptions& options) {
   ProcessSituation planned;
   planned.launch.interface = options.interface;
+  planned.launch.discovery_servers = options.discovery_servers;
   planned.launch.qos_file = ResolveQosFile(options.qos);
   const auto read = ReadQosFile(planned.launch.qos_file);
   if (const auto* why = std::get_if<qos::Finding>(&read)) {
@@ -119,6 +120,7 @@ void ReadProcessesAndPorts(const fs::path& proc, std::optional<std::uint32_t> do
                            HostFacts* host) {
   const auto before = ReadPorts(proc, host);
   ReadProcesses(proc, domain, host);
+  host->tool_ports = PortsOfTools(proc);
   if (!before) return;
   host->ports.emplace();
   std::ranges::set_intersection(*before, ReadPorts(proc, host).value_or(*before),

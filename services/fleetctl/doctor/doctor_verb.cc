@@ -44,6 +44,7 @@ void AddDoctorVerb(CLI::App* fleetctl, int* exit_code) {
                    "Profile file, or name of a shipped set, they are started with")
       ->envname("GIVEWAY_QOS");
   AddInterfaceFlag(verb, &options->interface);
+  AddDiscoveryFlag(verb, &options->discovery_servers);
   verb->add_flag("--fix", options->fix, "Remove unused files in shared memory");
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
   verb->add_flag("--quiet", options->quiet, "Print nothing: the exit code says it");

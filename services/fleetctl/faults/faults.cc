@@ -13,8 +13,7 @@ namespace giveway::fleetctl {
 namespace {
 
 int Print(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
-  if (std::fflush(stdout) != 0) throw OutputError("stdout did not take all of it");
+  if (!PrintAll(text)) throw OutputError("stdout did not take all of it");
   return 0;
 }
 

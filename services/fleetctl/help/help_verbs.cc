@@ -6,6 +6,7 @@
 
 #include "services/fleetctl/help/completion.h"
 #include "services/fleetctl/help/verb_tree.h"
+#include "services/fleetctl/output/output_file.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/types/nearest_name.h"
 
@@ -18,7 +19,7 @@ Examples
   fleetctl help run
   fleetctl help qos check
 
-Exit code: 0 shown, 2 there is no such verb.
+Exit code: 0 shown, 2 there is no such verb, or stdout did not take it.
 )";
 
 constexpr const char* kCompletionFooter = R"(
@@ -28,7 +29,7 @@ and campaigns. An installed Giveway has it in share/bash-completion already.
 Examples
   source <(fleetctl completion bash)
 
-Exit code: 0 shown, 2 an unknown shell.
+Exit code: 0 shown, 2 an unknown shell, or stdout did not take it.
 )";
 
 constexpr const char* kBashScript =
@@ -40,6 +41,13 @@ _fleetctl() {
 }
 complete -o default -F _fleetctl fleetctl
 )";
+
+// The exit code.
+int Show(const std::string& text) {
+  if (PrintAll(text)) return 0;
+  std::fprintf(stderr, "fleetctl: stdout did not take all of it\n");
+  return kCouldNotRun;
+}
 
 int ShowHelp(const CLI::App& fleetctl, const std::vector<std::string>& words) {
   const CLI::App* app = &fleetctl;
@@ -55,9 +63,7 @@ int ShowHelp(const CLI::App& fleetctl, const std::vector<std::string>& words) {
     name += " " + word;
   }
   // App::help() would explain the verb that was parsed, which is this one.
-  const std::string help = app->get_formatter()->make_help(app, name, CLI::AppFormatMode::Normal);
-  std::fputs(help.c_str(), stdout);
-  return 0;
+  return Show(app->get_formatter()->make_help(app, name, CLI::AppFormatMode::Normal));
 }
 
 void AddHelp(CLI::App* fleetctl, int* exit_code) {
@@ -73,18 +79,14 @@ void AddCompletion(CLI::App* fleetctl, int* exit_code) {
   verb->footer(kCompletionFooter);
   // Only checked: there is one to choose.
   verb->add_option("SHELL")->description("bash")->required()->check(CLI::IsMember({"bash"}));
-  verb->callback([exit_code] {
-    std::fputs(kBashScript, stdout);
-    *exit_code = 0;
-  });
+  verb->callback([exit_code] { *exit_code = Show(kBashScript); });
   // Used by the shell: prints the words that may replace the last one.
   CLI::App* words = fleetctl->add_subcommand("complete", "")->group("")->prefix_command();
   words->set_help_flag();
   words->callback([=] {
-    for (const std::string& word : Completions(*fleetctl, words->remaining())) {
-      std::printf("%s\n", word.c_str());
-    }
-    *exit_code = 0;
+    std::string lines;
+    for (const std::string& word : Completions(*fleetctl, words->remaining())) lines += word + "\n";
+    *exit_code = Show(lines);
   });
 }
 
@@ -95,10 +97,7 @@ void AddHelpVerbs(CLI::App* fleetctl, const std::string& version, int* exit_code
   AddCompletion(fleetctl, exit_code);
   CLI::App* verb = fleetctl->add_subcommand("version", "Print the version, and Fast DDS's");
   verb->footer("\nExamples\n  fleetctl version\n");
-  verb->callback([version, exit_code] {
-    std::printf("%s\n", version.c_str());
-    *exit_code = 0;
-  });
+  verb->callback([version, exit_code] { *exit_code = Show(version + "\n"); });
 }
 
 }  // namespace giveway::fleetctl

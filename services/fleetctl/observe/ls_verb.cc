@@ -11,6 +11,7 @@
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/survey/local_fleets.h"
 #include "services/runtime/json.h"
+#include "services/runtime/utf8.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -55,8 +56,9 @@ std::string Table(const std::vector<LocalFleet>& fleets, std::uint64_t here) {
         fleet.network_namespace == here ? "here" : std::to_string(fleet.network_namespace);
     const std::string world =
         fleet.worlds.empty() ? "none" : fmt::format("{}", fmt::join(fleet.worlds, ","));
-    text += fmt::format("{:>6}  {:<15}  {:<10}  {:>7}  {}\n", fleet.domain, fleet.interface,
-                        network, world, Ids(fleet.vehicles));
+    // Any user's command line, as it was written.
+    text += fmt::format("{:>6}  {:<15}  {:<10}  {:>7}  {}\n", fleet.domain,
+                        Printable(fleet.interface), network, world, Ids(fleet.vehicles));
   }
   return text;
 }

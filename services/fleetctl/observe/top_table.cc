@@ -60,11 +60,11 @@ std::string Row(VehicleId id, const VehicleSnapshot& vehicle, SteadyTime now) {
 }
 
 bool IsWorldSilent(const WorldSnapshot& world, SteadyTime now) {
-  return world.state != RunState::kEnded && now - *world.heard_at > FleetSnapshot::kSilentAfter;
+  return world.state != RunState::kEnded && !world.IsHeard(now);
 }
 
 std::string WorldText(const WorldSnapshot& world, SteadyTime now) {
-  if (!world.heard_at) return "no world heard";
+  if (!world.heard_at) return world.IsHeard(now) ? "world without vehicles" : "no world heard";
   std::string text = fmt::format(
       "world {}", world.state ? giveway::Name(*world.state) : std::string_view("heard"));
   if (world.time_s > 0) text += fmt::format(", {:.1f} s", world.time_s);
@@ -80,7 +80,7 @@ std::string PostText(const ListeningPost& post) {
 
 Json WorldJson(const WorldSnapshot& world, SteadyTime now) {
   Json object;
-  object["heard"] = world.heard_at.has_value();
+  object["heard"] = world.IsHeard(now);
   if (!world.heard_at) return object;
   object["epoch"] = Number(world.epoch);
   if (world.state) object["state"] = giveway::Name(*world.state);
@@ -122,7 +122,7 @@ std::vector<std::string> TopLines(const FleetSnapshot& fleet, const ListeningPos
                   "events")};
   std::vector<std::string> rows;
   for (const auto& [id, vehicle] : fleet.Vehicles()) rows.push_back(Row(id, vehicle, now));
-  if (!fleet.IsAnyHeard()) rows.push_back(NothingHeard(post, now));
+  if (!fleet.IsAnyHeard() && !world.IsHeard(now)) rows.push_back(NothingHeard(post, now));
   return FitTerminal(std::move(head), rows, size);
 }
 

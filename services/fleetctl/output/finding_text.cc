@@ -21,21 +21,14 @@ std::size_t Count(const qos::Findings& findings, qos::Severity severity) {
 
 }  // namespace
 
-std::string Shown(std::string text) {
-  text = WellFormed(text);
-  std::ranges::replace_if(
-      text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
-  return text;
-}
-
 std::string ToText(const qos::Finding& finding, const std::string& nowhere) {
   std::string where = finding.place.file.empty() ? nowhere : finding.place.file;
   if (finding.place.line > 0) where += fmt::format(":{}", finding.place.line);
   const std::string subject = finding.subject.empty() ? "" : finding.subject + ": ";
   return fmt::format("{}\n    {}\n    Remedy: {}\n",
-                     Shown(fmt::format("{}: {}: {}: {}{}", where, Name(finding.severity),
-                                       finding.rule, subject, finding.values)),
-                     Shown(finding.consequence), Shown(finding.remedy));
+                     Printable(fmt::format("{}: {}: {}: {}{}", where, Name(finding.severity),
+                                           finding.rule, subject, finding.values)),
+                     Printable(finding.consequence), Printable(finding.remedy));
 }
 
 Json ToJson(const qos::Finding& finding) {

@@ -10,9 +10,6 @@
 
 namespace giveway::fleetctl {
 
-// Text from a file or from the wire, without control sequences for the terminal that shows it.
-std::string Shown(std::string text);
-
 // Three lines: where, with severity and values; the effect; the remedy. `nowhere` is used if a
 // finding is not about a file.
 std::string ToText(const qos::Finding& finding, const std::string& nowhere = "environment");

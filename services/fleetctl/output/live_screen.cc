@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "services/fleetctl/output/library_lines.h"
+#include "services/fleetctl/process/interrupts.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -48,6 +49,7 @@ void LiveScreen::Show(const TableView& view, SteadyTime now) {
 
 void LiveScreen::Finish() {
   if (cursor_hidden_) Write(kShowCursor, stdout);
+  Interrupts::WriteIfEnded(nullptr);
   cursor_hidden_ = false;
   lines_drawn_ = 0;
 }
@@ -56,6 +58,7 @@ void LiveScreen::Draw(const std::vector<std::string>& lines) {
   std::string text;
   if (!cursor_hidden_) text += kHideCursor;
   cursor_hidden_ = true;
+  Interrupts::WriteIfEnded(kShowCursor);
   if (lines_drawn_ > 0) text += "\x1b[" + std::to_string(lines_drawn_) + "A";
   for (const std::string& line : TakeLibraryLines()) text += kClearLine + line + "\n";
   for (const std::string& line : lines) text += kClearLine + line + "\n";

@@ -1,5 +1,5 @@
 // Shows the progress of a run: a table redrawn in place if stdout is a terminal, else one line a
-// second on stderr. The destructor restores the cursor, so it is restored on every exit path.
+// second on stderr. The destructor restores the cursor, and Interrupts where it is not reached.
 #pragma once
 
 #include <cstddef>

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "services/config/scenario_file.h"
+#include "services/fleetctl/args/flag_checks.h"
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/output/finding_text.h"
@@ -76,7 +77,7 @@ void AddPlanVerb(CLI::App* fleetctl, int* exit_code) {
   PlanRequest& request = options->request;
   CLI::App* verb = fleetctl->add_subcommand("plan", "Will so many vehicles fit on so many hosts?");
   verb->footer(kPlanFooter);
-  verb->add_option("N,--vehicles", request.vehicles, "Vehicles")
+  verb->add_option("N,--vehicles", request.vehicles, "How many vehicles")
       ->required()
       ->check(CLI::Range(1, 4096));
   verb->add_option("--hosts", request.hosts, "Hosts, all alike; one also runs the world")
@@ -84,13 +85,13 @@ void AddPlanVerb(CLI::App* fleetctl, int* exit_code) {
       ->check(CLI::Range(1, 4096));
   verb->add_option("--cores", request.cores, "Of a host")
       ->default_str("this machine's")
-      ->check(CLI::Range(0.1, 1024.0));
+      ->check(Between(0.1, 1024));
   verb->add_option("--memory-gib", options->memory_gib, "Memory of a host, GiB")
       ->default_str("this machine's")
-      ->check(CLI::Range(0.1, 65536.0));
+      ->check(Between(0.1, 65536));
   verb->add_option("--link-mbit", request.link_mbit_s, "Between two hosts, Mbit/s")
       ->capture_default_str()
-      ->check(CLI::Range(0.01, 1e6));
+      ->check(Between(0.01, 1e6));
   verb->add_flag("--containers", request.containers,
                  "Every process has a network, and so ports, of its own");
   verb->add_option("--scenario", options->scenario, "The tick rate is this scenario's, not 20 Hz");

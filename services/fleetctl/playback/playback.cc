@@ -15,11 +15,13 @@
 #include "services/observer/page/page_text.h"
 #include "services/observer/server/page_server.h"
 #include "services/runtime/process.h"
+#include "services/runtime/utf8.h"
 
 namespace giveway::fleetctl {
 namespace {
 
 constexpr int kNothingToShow = 1;
+constexpr std::size_t kMostFaultBytes = 400;  // it may have a name from the file
 
 std::string SceneOf(const PlaybackOptions& options) {
   SceneSource source{
@@ -31,7 +33,9 @@ std::string SceneOf(const PlaybackOptions& options) {
 
 void Explain(const std::string& file, const RunRead& run) {
   if (!run.result.fault.empty()) {
-    std::fprintf(stderr, "%s: %s\n", file.c_str(), run.result.fault.c_str());
+    std::fprintf(stderr, "%s: %s%s\n", file.c_str(),
+                 Printable(Shortened(run.result.fault, kMostFaultBytes)).c_str(),
+                 run.frames.Size() > 0 ? "; shown up to there" : "");
   }
   if (run.unreadable > 0) {
     std::fprintf(stderr, "%s: %llu samples could not be decoded\n", file.c_str(),
@@ -43,7 +47,8 @@ void Explain(const std::string& file, const RunRead& run) {
   }
 }
 
-int Serve(const PlaybackOptions& options, std::string page) {
+// Until Ctrl-C.
+void Serve(const PlaybackOptions& options, std::string page) {
   const Interrupts interrupts;
   const PageServer server(options.address, options.port,
                           {.page = std::move(page),
@@ -54,7 +59,6 @@ int Serve(const PlaybackOptions& options, std::string page) {
   std::fprintf(stderr, "http://%s:%u/ shows it; Ctrl-C ends\n", options.address.c_str(),
                static_cast<unsigned>(options.port));
   while (Interrupts::Count() == 0) SleepUntil(SteadyNow() + std::chrono::milliseconds(50));
-  return 0;
 }
 
 }  // namespace
@@ -81,9 +85,15 @@ int RunPlayback(const PlaybackOptions& options) {
   std::string page = PageWithRun(run.frames.RunJson(
       scene, options.report ? RunFrames::Opens::kReport : RunFrames::Opens::kMap));
   run.frames = {};
-  if (options.html_file.empty()) return Serve(options, std::move(page));
-  WriteFile(options.html_file, page);
-  return 0;
+  // What could be read is shown, but a script must not take it for the whole run.
+  const int code = run.result.fault.empty() ? 0 : kCouldNotRun;
+  if (options.html_file.empty()) {
+    Serve(options, std::move(page));
+  } else {
+    WriteFile(options.html_file, page);
+    if (options.report) std::printf("%s\n", options.html_file.c_str());
+  }
+  return code;
 }
 
 }  // namespace giveway::fleetctl

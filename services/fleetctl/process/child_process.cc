@@ -80,7 +80,7 @@ class SignalsHeld {
 // Signal masks and ignored signals survive exec: the child must start with neither, but for what it
 // lets pass itself. One that came since the fork must not find a handler of this process.
 void ResetSignals(bool handles_stops) {
-  for (const int number : {SIGINT, SIGTERM, SIGPIPE, SIGHUP, SIGQUIT, SIGALRM, SIGXFSZ}) {
+  for (const int number : {SIGINT, SIGTERM, SIGPIPE, SIGHUP, SIGQUIT, SIGALRM, SIGXFSZ, SIGCHLD}) {
     std::signal(number, SIG_DFL);
   }
   sigset_t blocked;
@@ -121,6 +121,17 @@ void ResetSignals(bool handles_stops) {
   ::_exit(kCannotExec);
 }
 
+// How a child ended; nothing while it runs. Never blocks. One that is no child any more has ended,
+// too: where SIGCHLD is ignored the system reaps it, and its exit code is gone.
+std::optional<ProcessEnd> ReapIfEnded(pid_t pid) {
+  int status = 0;
+  const pid_t reaped = ::waitpid(pid, &status, WNOHANG);
+  if (reaped < 0 && errno == ECHILD) return ProcessEnd{false, ProcessEnd::kNotKnown};
+  if (reaped != pid) return std::nullopt;
+  if (WIFSIGNALED(status)) return ProcessEnd{true, WTERMSIG(status)};
+  return ProcessEnd{false, WEXITSTATUS(status)};
+}
+
 }  // namespace
 
 std::filesystem::path ProgramFolder() {
@@ -134,15 +145,15 @@ void DieWith(pid_t parent) {
 }
 
 std::string Describe(ProcessEnd end) {
+  if (end == ProcessEnd{false, ProcessEnd::kNotKnown}) return "exit code not known";
   if (!end.by_signal) return "exit code " + std::to_string(end.number);
   return "signal " + std::to_string(end.number) + " (" + ::strsignal(end.number) + ")";
 }
 
 ChildProcess::ChildProcess(const ChildCommand& command)
     : name_(command.name), hands_on_lines_(command.hands_on_lines) {
-  if (!command.log_file.empty()) {
-    log_.open(command.log_file, std::ios::trunc);
-    if (!log_) throw StartError("cannot write " + command.log_file + ": " + ErrnoText());
+  if (!command.log_file.empty() && !log_.Open(command.log_file)) {
+    throw StartError("cannot write " + command.log_file + ": " + ErrnoText());
   }
   ChildCommand own = command;
   std::vector<char*> argv;
@@ -168,13 +179,17 @@ ChildProcess::~ChildProcess() {
 
 void ChildProcess::Poll() {
   if (!IsRunning()) return;
-  int status = 0;
-  const bool ended = ::waitpid(pid_, &status, WNOHANG) == pid_;
-  if (hears_ || ended) ReadOutput();  // after waitpid: no output before the end is missed
-  if (!ended) return;
-  end_ = WIFSIGNALED(status) ? ProcessEnd{true, WTERMSIG(status)}
-                             : ProcessEnd{false, WEXITSTATUS(status)};
+  end_ = ReapIfEnded(pid_);
+  if (hears_ || end_) ReadOutput();  // after waitpid: no output before the end is missed
+  if (!end_) return;
   if (!unfinished_line_.empty()) KeepLines("\n", 1);
+  log_.End();
+}
+
+bool ChildProcess::AnyHasEnded() {
+  siginfo_t ended{};
+  const int code = ::waitid(P_ALL, 0, &ended, WEXITED | WNOHANG | WNOWAIT);
+  return code == 0 && ended.si_pid != 0;
 }
 
 void ChildProcess::Signal(int signal_number) {
@@ -198,7 +213,7 @@ void ChildProcess::ReadOutput() {
     if (got <= 0) return;
     const auto size = static_cast<std::size_t>(got);
     bytes_read_ += size;
-    if (log_.is_open()) log_.write(buffer.data(), got).flush();
+    log_.Append({buffer.data(), size});
     KeepLines(buffer.data(), size);
   }
 }

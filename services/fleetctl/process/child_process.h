@@ -9,13 +9,13 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "services/fleetctl/process/child_log.h"
 #include "services/fleetctl/process/file_descriptor.h"
 
 namespace giveway::fleetctl {
@@ -35,10 +35,13 @@ struct ProcessEnd {
   bool by_signal = false;
   int number = 0;  // the signal, or the exit code
 
+  // The exit code of one that was reaped elsewhere; no process has it.
+  static constexpr int kNotKnown = -1;
+
   friend bool operator==(const ProcessEnd&, const ProcessEnd&) = default;
 };
 
-// "exit code 2" or "signal 9 (Killed)".
+// "exit code 2", "exit code not known" or "signal 9 (Killed)".
 std::string Describe(ProcessEnd end);
 
 // The folder of the fleet's programs: that of this executable.
@@ -81,6 +84,10 @@ class ChildProcess {
 
   // Reads the child's output and checks whether it has ended. Never blocks.
   void Poll();
+  // Whether any child of this process has ended and was not polled since.
+  static bool AnyHasEnded();
+  // Readable when there is output, for poll(2) of many children at once.
+  int OutputDescriptor() const { return output_.Get(); }
   const std::optional<ProcessEnd>& End() const { return end_; }
   bool IsRunning() const { return !end_.has_value(); }
   // While this is off, its output stays in the pipe, which fills up. An exit is still noticed.
@@ -95,6 +102,8 @@ class ChildProcess {
   pid_t Pid() const { return pid_; }
   // The complete output lines since the last call, if the command asked for them.
   std::vector<std::string> TakeLines() { return std::exchange(lines_, {}); }
+  // About its log, see ChildLog.
+  std::vector<std::string> TakeLogComplaints() { return log_.TakeComplaints(); }
   // The last output lines of the child, oldest first.
   const std::deque<std::string>& LastLines() const { return last_lines_; }
 
@@ -105,7 +114,7 @@ class ChildProcess {
   std::string name_;
   pid_t pid_ = -1;
   FileDescriptor output_;
-  std::ofstream log_;
+  ChildLog log_;
   bool hands_on_lines_;
   bool hears_ = true;
   std::uint64_t bytes_read_ = 0;

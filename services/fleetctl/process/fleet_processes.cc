@@ -1,7 +1,10 @@
 #include "services/fleetctl/process/fleet_processes.h"
 
+#include <poll.h>
+
 #include <algorithm>
 #include <csignal>
+#include <iterator>
 #include <utility>
 
 #include "services/fleetctl/process/interrupts.h"
@@ -69,7 +72,20 @@ void FleetProcesses::Poll() {
   for (Member& member : members_) {
     const bool waits = !member.process && !stopping_;
     if (waits && now >= begun_ + member.command.start_after) member.Start();
-    member.Poll();
+  }
+  PollThoseWithNews();
+}
+
+// Two system calls where there are none, instead of two for each process.
+void FleetProcesses::PollThoseWithNews() {
+  const bool any_has_ended = ChildProcess::AnyHasEnded();
+  std::vector<pollfd> outputs;
+  for (const Member& member : members_) {
+    outputs.push_back({member.IsRunning() ? member.process->OutputDescriptor() : -1, POLLIN, 0});
+  }
+  ::poll(outputs.data(), outputs.size(), 0);  // leaves out those below 0
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (any_has_ended || outputs[i].revents != 0) members_[i].Poll();
   }
 }
 
@@ -173,6 +189,15 @@ std::vector<MemberLine> FleetProcesses::TakeLines() {
     }
   }
   return lines;
+}
+
+std::vector<std::string> FleetProcesses::TakeLogComplaints() {
+  std::vector<std::string> complaints;
+  for (Member& member : members_) {
+    if (!member.process) continue;
+    std::ranges::move(member.process->TakeLogComplaints(), std::back_inserter(complaints));
+  }
+  return complaints;
 }
 
 const std::deque<std::string>& FleetProcesses::LastLines(MemberId member) const {

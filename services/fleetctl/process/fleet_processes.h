@@ -65,6 +65,8 @@ class FleetProcesses {
   bool IsRunning(MemberId member) const { return At(member).IsRunning(); }
   bool AnyRunning(const std::function<bool(MemberId)>& of) const;
   bool AllEnded() const;  // and no start is pending
+  // As it was started last.
+  const MemberCommand& CommandOf(MemberId member) const { return At(member).command; }
   // The end of its process, once it is known.
   const std::optional<MemberEnd>& EndOf(MemberId member) const { return At(member).end; }
   // The first disallowed end, in the order of the commands.
@@ -74,6 +76,8 @@ class FleetProcesses {
   std::vector<MemberEnd> TakeEnds();
   // Output lines since the last call, if the commands ask for them.
   std::vector<MemberLine> TakeLines();
+  // Of all logs since the last call, see ChildLog.
+  std::vector<std::string> TakeLogComplaints();
   // Of its process, oldest first.
   const std::deque<std::string>& LastLines(MemberId member) const;
   // For prlimit and the like. nullopt unless it is running: the id may have been reused.
@@ -99,6 +103,7 @@ class FleetProcesses {
 
   const Member& At(MemberId member) const;
   Member& At(MemberId member);
+  void PollThoseWithNews();
 
   std::vector<Member> members_;
   SteadyTime begun_;

@@ -1,8 +1,10 @@
 #include "services/fleetctl/process/interrupts.h"
 
+#include <poll.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cstring>
 
 namespace giveway::fleetctl {
 namespace {
@@ -10,36 +12,60 @@ namespace {
 constexpr int kInterruptedCode = 1;  // the same as that of the verbs
 constexpr int kFirstSignalCode = 128;
 constexpr int kMostInterrupts = 2;
-constexpr unsigned kLongestSilence_s = 1;
+constexpr unsigned kLongestSilence_s = 1;  // unless the verb asks for more
 
 // Read by the verb's threads, written by whichever thread gets the signal.
 std::atomic<int> interrupt_count{0};
 std::atomic<int> first_signal{0};
 std::atomic<bool> is_watched{false};
+std::atomic<unsigned> longest_silence_s{kLongestSilence_s};
 std::atomic<bool> exits_as_signal{false};
+std::atomic<const char*> last_output{nullptr};
 static_assert(std::atomic<int>::is_always_lock_free);
+static_assert(std::atomic<const char*>::is_always_lock_free);
 static_assert(std::atomic<bool>::is_always_lock_free);
+static_assert(std::atomic<unsigned>::is_always_lock_free);
 
-void StartSecond() {
-  if (is_watched) ::alarm(kLongestSilence_s);
+void StartSilence() {
+  if (is_watched) ::alarm(longest_silence_s);
 }
 
 int HardExitCode() { return exits_as_signal ? kFirstSignalCode + first_signal : kInterruptedCode; }
 
+// Of a signal handler: system calls only. Not where it would wait for a terminal that is stopped,
+// or for who does not read a pipe.
+void Write(int descriptor, const char* text) {
+  pollfd there{descriptor, POLLOUT, 0};
+  if (::poll(&there, 1, 0) != 1 || (there.revents & POLLOUT) == 0) return;
+  [[maybe_unused]] const ssize_t written = ::write(descriptor, text, std::strlen(text));
+}
+
+[[noreturn]] void EndHard(const char* why) {
+  if (const char* text = last_output) Write(STDOUT_FILENO, text);
+  Write(STDERR_FILENO, why);
+  ::_exit(HardExitCode());
+}
+
 void CountInterrupt(int signal_number) {
   int none = 0;
   first_signal.compare_exchange_strong(none, signal_number);
-  if (++interrupt_count > kMostInterrupts) ::_exit(HardExitCode());
-  StartSecond();
+  if (++interrupt_count > kMostInterrupts) {
+    EndHard("ended at once; what was being written is not whole\n");
+  }
+  StartSilence();
 }
 
-void EndSilent(int /*signal_number*/) { ::_exit(HardExitCode()); }
+void EndSilent(int /*signal_number*/) {
+  EndHard(
+      "interrupted, it did not stop in time and was ended; what was being written is not whole\n");
+}
 
 }  // namespace
 
 Interrupts::Interrupts(Silence silence, HardExit hard_exit) {
   interrupt_count = 0;
   first_signal = 0;
+  longest_silence_s = kLongestSilence_s;
   exits_as_signal = hard_exit == HardExit::kAsSignal;
   is_watched = silence == Silence::kHangs;
   struct sigaction end {};
@@ -67,14 +93,17 @@ Interrupts::~Interrupts() {
 
 int Interrupts::Count() {
   const int count = interrupt_count;
-  if (count > 0) StartSecond();
+  if (count > 0) StartSilence();
   return count;
 }
 
 int Interrupts::SignalCode() { return kFirstSignalCode + first_signal; }
 
 void Interrupts::AllowSeconds(unsigned seconds) {
-  if (interrupt_count > 0 && is_watched) ::alarm(seconds);
+  longest_silence_s = seconds;
+  if (interrupt_count > 0) StartSilence();
 }
+
+void Interrupts::WriteIfEnded(const char* text) { last_output = text; }
 
 }  // namespace giveway::fleetctl

@@ -1,7 +1,7 @@
 // Counts Ctrl-C and SIGTERM: the first asks for a clean stop, the second for an immediate one, the
 // third ends the process whatever it is doing. The process is also ended if an interrupted verb
-// does not query the count for a second: it hangs, in the library or elsewhere. Exit code 1, unless
-// the verb asks for another.
+// does not query the count for a second: it hangs, in the library or elsewhere. It says so on
+// stderr. Exit code 1, unless the verb asks for another.
 #pragma once
 
 #include <csignal>
@@ -28,12 +28,15 @@ class Interrupts {
   Interrupts(const Interrupts&) = delete;
   Interrupts& operator=(const Interrupts&) = delete;
 
-  // A query shows that the verb is alive: it restarts the second.
+  // A query shows that the verb is alive: the time of its silence starts again.
   static int Count();
   // 128 + the first signal. Only after there was one.
   static int SignalCode();
-  // For an interrupted verb with something to do that takes longer.
+  // From now on: for a verb that writes what takes longer, interrupted before or meanwhile.
   static void AllowSeconds(unsigned seconds);
+  // What a process that is ended so writes to stdout: it runs no destructors. A text that is never
+  // freed, or nullptr.
+  static void WriteIfEnded(const char* text);
 
  private:
   struct sigaction before_int_ {};

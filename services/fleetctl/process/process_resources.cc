@@ -1,57 +1,79 @@
 #include "services/fleetctl/process/process_resources.h"
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include <cstdlib>
+#include <charconv>
 #include <filesystem>
-#include <sstream>
 #include <string>
+#include <vector>
 
 #include "services/runtime/whole_file.h"
 
 namespace giveway::fleetctl {
 namespace {
 
-// The value of "\nKEY:   1234 kB"; 0 if there is none, as for a process that has just ended.
-std::uint64_t NumberOf(std::string_view status, std::string_view key) {
-  const std::size_t at = status.find("\n" + std::string(key) + ":");
-  if (at == std::string_view::npos) return 0;
-  return std::strtoull(std::string(status.substr(at + key.size() + 2, 40)).c_str(), nullptr, 10);
+// The numbers of a text, up to the first word that is none.
+std::vector<std::int64_t> NumbersOf(std::string_view text) {
+  std::vector<std::int64_t> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (true) {
+    while (at != end && *at == ' ') ++at;
+    std::int64_t number = 0;
+    const auto [next, error] = std::from_chars(at, end, number);
+    if (error != std::errc{}) return numbers;
+    numbers.push_back(number);
+    at = next;
+  }
+}
+
+// Of a folder in /proc: Linux says how many since 6.2.
+std::uint32_t DescriptorsIn(const std::string& folder) {
+  struct stat there {};
+  if (::stat(folder.c_str(), &there) == 0 && there.st_size > 0) {
+    return static_cast<std::uint32_t>(there.st_size);
+  }
+  std::uint32_t descriptors = 0;
+  std::error_code gone;
+  for (std::filesystem::directory_iterator entry(folder, gone), end; !gone && entry != end;
+       entry.increment(gone)) {
+    ++descriptors;
+  }
+  return descriptors;
 }
 
 }  // namespace
 
-// utime and stime are fields 14 and 15; the name, field 2, may contain anything and ends with the
-// last ')'.
-std::optional<ProcessResources> ParseResources(std::string_view stat, std::string_view status,
-                                               double ticks_per_second) {
+// Of stat, utime and stime are fields 14 and 15, the threads 20; the name, field 2, may contain
+// anything and ends with the last ')', and field 3 is a letter. Of statm, what is resident is the
+// second number, and of that in files or shared memory the third.
+std::optional<ProcessResources> ParseResources(std::string_view stat, std::string_view statm,
+                                               const MachineUnits& units) {
   const std::size_t name_end = stat.rfind(')');
-  if (name_end == std::string_view::npos) return std::nullopt;
-  std::istringstream fields{std::string(stat.substr(name_end + 1))};
-  std::string skipped;
-  for (int field = 3; field < 14; ++field) fields >> skipped;
-  double user = 0;
-  double system = 0;
-  if (!(fields >> user >> system)) return std::nullopt;
-  constexpr std::uint64_t kKilobyte = 1024;
-  return ProcessResources{.cpu_s = (user + system) / ticks_per_second,
-                          .resident_bytes = NumberOf(status, "VmRSS") * kKilobyte,
-                          .private_bytes = NumberOf(status, "RssAnon") * kKilobyte,
-                          .threads = static_cast<std::uint32_t>(NumberOf(status, "Threads"))};
+  if (name_end == std::string_view::npos || stat.size() < name_end + 4) return std::nullopt;
+  const std::vector<std::int64_t> fields = NumbersOf(stat.substr(name_end + 4));
+  constexpr std::size_t kFirst = 4;
+  if (fields.size() <= 20 - kFirst) return std::nullopt;
+  ProcessResources resources{
+      .cpu_s = static_cast<double>(fields[14 - kFirst] + fields[15 - kFirst]) / units.ticks_per_s,
+      .threads = static_cast<std::uint32_t>(fields[20 - kFirst])};
+  const std::vector<std::int64_t> pages = NumbersOf(statm);
+  if (pages.size() < 3) return resources;  // it has just ended
+  resources.resident_bytes = static_cast<std::uint64_t>(pages[1]) * units.page_bytes;
+  resources.private_bytes = static_cast<std::uint64_t>(pages[1] - pages[2]) * units.page_bytes;
+  return resources;
 }
 
 std::optional<ProcessResources> ReadResources(pid_t pid) {
-  const std::filesystem::path folder = "/proc/" + std::to_string(pid);
-  std::optional<ProcessResources> resources = ParseResources(
-      ReadWholeFile(folder / "stat").value_or(""), ReadWholeFile(folder / "status").value_or(""),
-      static_cast<double>(::sysconf(_SC_CLK_TCK)));
-  if (!resources) return std::nullopt;
-  std::error_code gone;
-  for (std::filesystem::directory_iterator entry(folder / "fd", gone), end; !gone && entry != end;
-       entry.increment(gone)) {
-    ++resources->descriptors;
-  }
+  static const MachineUnits units{static_cast<double>(::sysconf(_SC_CLK_TCK)),
+                                  static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE))};
+  const std::string folder = "/proc/" + std::to_string(pid);
+  std::optional<ProcessResources> resources =
+      ParseResources(ReadWholeFile(folder + "/stat").value_or(""),
+                     ReadWholeFile(folder + "/statm").value_or(""), units);
+  if (resources) resources->descriptors = DescriptorsIn(folder + "/fd");
   return resources;
 }
 

@@ -17,10 +17,15 @@ struct ProcessResources {
   std::uint32_t descriptors = 0;
 };
 
-// All but the descriptors, from the text of stat and of status. nullopt if stat is incomplete.
+struct MachineUnits {
+  double ticks_per_s = 0;
+  std::uint64_t page_bytes = 0;
+};
+
+// All but the descriptors, from the text of stat and of statm. nullopt if stat is incomplete.
 // Pure.
-std::optional<ProcessResources> ParseResources(std::string_view stat, std::string_view status,
-                                               double ticks_per_second);
+std::optional<ProcessResources> ParseResources(std::string_view stat, std::string_view statm,
+                                               const MachineUnits& units);
 // nullopt if the process is gone.
 std::optional<ProcessResources> ReadResources(pid_t pid);
 // User and system time of this process, in seconds.

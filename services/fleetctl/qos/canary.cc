@@ -25,6 +25,25 @@ bool IsMore(double a, double a_size, double b, double b_size) {
 
 }  // namespace
 
+void SeenVehicles::Add(const VehicleStatus& status, SteadyTime now) {
+  const auto [entry, is_new] = seen_.try_emplace(status.vehicle);
+  Seen& seen = entry->second;
+  const bool restarted = !is_new && status.beacons.sent < seen.last.beacons.sent;
+  seen.restarted |= restarted;
+  if (is_new || restarted) {
+    seen.first = status;
+    seen.first_at = now;
+  }
+  seen.last = status;
+  seen.last_at = now;
+}
+
+bool SeenVehicles::Hears(VehicleId vehicle, bool since_restart) const {
+  const auto seen = seen_.find(vehicle);
+  return seen != seen_.end() && (!since_restart || seen->second.restarted) &&
+         seen->second.last.beacons.taken > 0;
+}
+
 ServiceFigures& ServiceFigures::operator+=(const ServiceFigures& other) {
   alarms += other.alarms;
   lost += other.lost;

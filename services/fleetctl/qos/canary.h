@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include "services/types/fleet_facts.h"
+#include "services/types/time.h"
 
 namespace giveway::fleetctl {
 
@@ -25,6 +27,28 @@ struct ServiceFigures {
 
 // Of one vehicle, from one report to a later one of the same process.
 ServiceFigures Between(const VehicleStatus& before, const VehicleStatus& after, double seconds);
+
+// What vehicles reported, in the order it came. Behind an order that restarts a process there are
+// still reports of the former one.
+class SeenVehicles {
+ public:
+  struct Seen {
+    VehicleStatus first;
+    SteadyTime first_at{0};
+    VehicleStatus last;
+    SteadyTime last_at{0};
+    bool restarted = false;  // its process: that counts from zero
+  };
+  void Add(const VehicleStatus& status, SteadyTime now);
+  bool Contains(VehicleId vehicle) const { return seen_.contains(vehicle); }
+  // Whether its process has taken a beacon; with `since_restart` only the one that was seen to
+  // start.
+  bool Hears(VehicleId vehicle, bool since_restart) const;
+  const std::map<VehicleId, Seen>& All() const { return seen_; }
+
+ private:
+  std::map<VehicleId, Seen> seen_;
+};
 
 // Why `canary` performs worse than `rest`, or cannot be judged; empty if it does not. Worse means
 // more than chance: the counts are assumed to be Poisson, and the difference of two rates must

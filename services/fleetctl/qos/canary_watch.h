@@ -2,7 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <map>
 #include <string>
 
 #include "services/fleetctl/qos/canary.h"
@@ -15,8 +14,11 @@ class CanaryWatch {
  public:
   explicit CanaryWatch(const link::LinkOptions& options) : observer_(options) {}
 
-  // Waits until the vehicle has taken a beacon since its process started; false after `patience`.
-  bool WaitUntilItHears(VehicleId vehicle, std::chrono::milliseconds patience);
+  // Before an order: what comes behind it may be of the process that it restarts.
+  void WaitUntilSeen(VehicleId vehicle, std::chrono::milliseconds patience);
+  // Waits until the vehicle has taken a beacon since its process started, where the order restarts
+  // it since then; false after `patience`.
+  bool WaitUntilItHears(VehicleId vehicle, bool restarts, std::chrono::milliseconds patience);
   struct Both {
     ServiceFigures canary;
     ServiceFigures rest;
@@ -25,17 +27,10 @@ class CanaryWatch {
   Both Watch(VehicleId vehicle, Nanoseconds span);
 
  private:
-  struct Seen {
-    VehicleStatus first;
-    SteadyTime first_at{0};
-    VehicleStatus last;
-    SteadyTime last_at{0};
-    bool restarted = false;  // its process
-  };
   void Take();
 
   link::ObserverLink observer_;
-  std::map<VehicleId, Seen> seen_;
+  SeenVehicles seen_;
 };
 
 }  // namespace giveway::fleetctl

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iterator>
 #include <optional>
+#include <thread>
 #include <utility>
 #include <variant>
 
@@ -30,10 +31,20 @@ namespace {
 
 using std::chrono::seconds;
 
-constexpr auto kApplyPatience = seconds(20);  // a restart takes about one, on a busy machine more
-constexpr auto kAskPatience = seconds(5);
-constexpr int kMostGiven = 2;  // times that one order is given
+// How often an order is given, and how long its answer and the answer to a question are waited for.
+struct Patience {
+  int given;
+  seconds for_order;
+  seconds for_answer;
+};
+// A restart takes about a second, on a busy machine more.
+constexpr Patience kToApply{.given = 2, .for_order = seconds(20), .for_answer = seconds(5)};
+// An order to go back may come while the process tries the set or restarts with it: it is refused
+// then, or lost.
+constexpr Patience kToGoBack{.given = 6, .for_order = seconds(5), .for_answer = seconds(2)};
+constexpr auto kBetweenOrders = std::chrono::milliseconds(500);
 constexpr auto kHearPatience = seconds(10);
+constexpr auto kSeePatience = seconds(3);  // it reports five times a second
 
 [[noreturn]] void Refuse(const std::string& file, const std::string& what,
                          const std::string& remedy) {
@@ -90,8 +101,10 @@ class Applying {
   bool ApplyTo(AppliedTo* applied, const QosProfiles& profiles, bool between);
   std::optional<ApplyVerdict> Take(const qos::RolloutStep& step);
   std::optional<ApplyVerdict> Try(AppliedTo* canary);
-  // Whether each reports that it runs with its previous set.
-  bool RollBack();
+  // Those that do not report that they run with their previous set.
+  std::vector<VehicleId> RollBack();
+  // What became of the others, for a report that one refuses or gave no answer.
+  std::string AfterRollBack();
   qos::Role RoleOf(VehicleId process) const {
     return process == kNoVehicle ? qos::Role::kWorld : qos::Role::kVehicle;
   }
@@ -174,7 +187,10 @@ void Applying::CheckAsIs() {
   for (const auto& [process, answer] : answers_) {
     fleet_size = std::max<std::int64_t>(fleet_size, answer.fleet_size);
   }
-  const qos::Deployment deployment{.vehicles = fleet_size};
+  // Each process holds the order against its own tick, and nothing has changed before the first
+  // does; how many share a host only they see.
+  const qos::Deployment deployment{
+      .vehicles = fleet_size, .vehicles_a_host = 1, .tick_ns = UnknownFleet().tick_ns};
   report_.findings = qos::Check({{wanted_.name, wanted_.text}}, deployment);
   if (!rollout_.between.empty()) {
     std::ranges::move(qos::Check({{Between().name, Between().text}}, deployment),
@@ -201,29 +217,26 @@ std::optional<ApplyVerdict> Applying::WhyNot() {
   return {};
 }
 
-// Whether the endpoints run with the changed values.
-void Hold(const AdminAnswer& answer, AppliedTo* applied) {
-  for (const qos::Change& change : applied->changes) {
-    for (const LiveValue& live : answer.live) {
-      if (live.profile != change.profile || live.policy != change.what) continue;
-      ++applied->checked;
-      applied->seen += live.number == change.number ? 1 : 0;
-    }
-  }
-}
-
 // The answer that it is in effect, or refused; none of a process that does not answer at all. An
 // order or its answer may be lost with a participant that ends, or is new: then what the process
-// reports to run with says which, and the order is given again if need be.
+// reports to run with says which, and the order is given again if need be. `insist`: it must go
+// back, and is not left alone before it has.
 std::optional<AdminAnswer> Applying::Order(VehicleId process, const QosProfiles& profiles,
                                            bool insist) {
-  for (int given = 0; given < kMostGiven; ++given) {
-    auto answer = client_.Send(ApplyRequest(process, profiles), kApplyPatience, insist);
-    if (answer) return answer;
-    auto report = client_.AskQos(process, kAskPatience, insist);
-    if (!report || report->profiles.text == profiles.text) return report;
+  const Patience patience = insist ? kToGoBack : kToApply;
+  std::optional<AdminAnswer> answer;
+  for (int given = 0; given < patience.given; ++given) {
+    answer = client_.Send(ApplyRequest(process, profiles), patience.for_order, insist);
+    if (answer && !(insist && answer->state == AnswerState::kRefused)) return answer;
+    if (answer) {
+      std::this_thread::sleep_for(kBetweenOrders);
+      continue;
+    }
+    auto report = client_.AskQos(process, patience.for_answer, insist);
+    if (report && report->profiles.text == profiles.text) return report;
+    if (!report && !insist) return std::nullopt;
   }
-  return std::nullopt;
+  return answer;
 }
 
 bool Applying::ApplyTo(AppliedTo* applied, const QosProfiles& profiles, bool between) {
@@ -233,39 +246,53 @@ bool Applying::ApplyTo(AppliedTo* applied, const QosProfiles& profiles, bool bet
   applied->seconds = Seconds(SteadyNow() - begun);
   applied->answered = answer.has_value();
   applied->in_effect = answer && answer->state == AnswerState::kInEffect;
-  if (!answer) applied->refusal = "gave no answer; see its log";
   if (answer && !applied->in_effect) applied->refusal = "refuses it: " + answer->reason;
+  if (!answer) {
+    applied->refusal = "gave no answer; see its log";
+    undo_.push_back({applied->vehicle, current.profiles});  // it may carry the order out still
+  }
   if (applied->in_effect) {
-    if (!between) Hold(*answer, applied);
+    if (!between) HoldAgainstChanges(current, *answer, applied);
     undo_.push_back({applied->vehicle, std::exchange(current.profiles, profiles)});
   }
   ShowText(between && applied->in_effect ? BetweenLine(*applied) : LineOf(*applied));
   return applied->in_effect;
 }
 
-bool Applying::RollBack() {
-  bool all = true;
+std::vector<VehicleId> Applying::RollBack() {
+  std::vector<VehicleId> unsure;
   for (; !undo_.empty(); undo_.pop_back()) {
     const Undo& undo = undo_.back();
     const auto answer = Order(undo.process, undo.profiles, true);
-    all = answer && answer->state == AnswerState::kInEffect && all;
+    if (!answer || answer->state != AnswerState::kInEffect) unsure.push_back(undo.process);
   }
-  return all;
+  return unsure;
+}
+
+std::string Applying::AfterRollBack() {
+  const bool any = !undo_.empty();
+  std::string names;
+  for (const VehicleId process : RollBack()) {
+    names += (names.empty() ? "" : ", ") + NameOf(process);
+  }
+  if (!names.empty())
+    return names + " may run with the new profiles still: fleetctl qos show --live";
+  return any ? "the processes before it run with what they had again" : "";
 }
 
 std::optional<ApplyVerdict> Applying::Try(AppliedTo* canary) {
   CanaryWatch watch(link_);
+  watch.WaitUntilSeen(canary->vehicle, kSeePatience);
   CanaryTrial trial;
   trial.vehicle = canary->vehicle;
   if (!ApplyTo(canary, wanted_, false)) {
-    // Refused: nothing was changed. Without an answer it is unknown.
-    if (canary->answered) {
-      RollBack();
+    if (canary->answered) {  // refused: nothing was changed in it
+      report_.remedy = AfterRollBack();
       return ApplyVerdict::kRefused;
     }
-    undo_.push_back({canary->vehicle, answers_.at(canary->vehicle).profiles});
     trial.worse = canary->refusal;
-  } else if (watch.WaitUntilItHears(canary->vehicle, kHearPatience)) {
+  } else if (watch.WaitUntilItHears(canary->vehicle, qos::NeedsRestart(canary->changes),
+                                    kHearPatience)) {
     const auto both = watch.Watch(canary->vehicle, FromSeconds(options_.watch_s));
     trial.seconds = options_.watch_s;
     trial.canary = both.canary;
@@ -279,7 +306,7 @@ std::optional<ApplyVerdict> Applying::Try(AppliedTo* canary) {
   report_.trial = trial;
   ShowText(LineOf(trial));
   if (trial.worse.empty()) return {};
-  return RollBack() ? ApplyVerdict::kRolledBack : ApplyVerdict::kNotRolledBack;
+  return RollBack().empty() ? ApplyVerdict::kRolledBack : ApplyVerdict::kNotRolledBack;
 }
 
 std::optional<ApplyVerdict> Applying::Take(const qos::RolloutStep& step) {
@@ -287,8 +314,7 @@ std::optional<ApplyVerdict> Applying::Take(const qos::RolloutStep& step) {
   const bool is_canary = options_.canary != 0 && Number(applied.vehicle) == options_.canary;
   if (is_canary && !step.between) return Try(&applied);
   if (ApplyTo(&applied, step.between ? Between() : wanted_, step.between)) return {};
-  report_.remedy = RollBack() ? "the processes before it run with what they had again"
-                              : "some processes before it may run with the new profiles still";
+  report_.remedy = AfterRollBack();
   return ApplyVerdict::kRefused;
 }
 

@@ -8,6 +8,7 @@
 
 #include "services/fleetctl/output/finding_text.h"
 #include "services/runtime/json.h"
+#include "services/runtime/utf8.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -98,7 +99,28 @@ std::string FiguresText(const ServiceFigures& figures) {
                      figures.AlarmsPerPairHour(), 100 * figures.LostShare());
 }
 
+// Null if it says nothing of it.
+const LiveValue* LiveOf(const AdminAnswer& answer, const qos::Change& change) {
+  const auto live = std::ranges::find_if(answer.live, [&](const LiveValue& value) {
+    return value.profile == change.profile && value.policy == change.what;
+  });
+  return live == answer.live.end() ? nullptr : &*live;
+}
+
 }  // namespace
+
+void HoldAgainstChanges(const AdminAnswer& before, const AdminAnswer& now, AppliedTo* applied) {
+  for (const qos::Change& change : applied->changes) {
+    const LiveValue* const live = LiveOf(now, change);
+    if (live == nullptr) continue;
+    const LiveValue* const had = LiveOf(before, change);
+    const bool by_code = had != nullptr && had->number != change.before;
+    const bool as_wanted =
+        live->number == change.number || (by_code && live->number == had->number);
+    ++applied->checked;
+    applied->seen += as_wanted ? 1 : 0;
+  }
+}
 
 std::string NameOf(VehicleId process) {
   return process == kNoVehicle ? "the world" : fmt::format("vehicle {}", Number(process));
@@ -115,8 +137,9 @@ std::string PlanText(const ApplyReport& report) {
   std::vector<std::pair<std::string, std::string>>
       groups;  // changes, and the vehicles that have them
   for (const AppliedTo& applied : report.vehicles) {
-    const std::string changes = fmt::format(": {} -> {}\n", Shown(applied.before), report.profile) +
-                                ChangesText(applied.changes);
+    const std::string changes =
+        fmt::format(": {} -> {}\n", Printable(applied.before), report.profile) +
+        ChangesText(applied.changes);
     auto group = std::ranges::find(groups, changes, &std::pair<std::string, std::string>::first);
     const bool is_world = applied.vehicle == kNoVehicle;
     if (group == groups.end()) group = groups.insert(group, {changes, is_world ? "" : "vehicle"});
@@ -134,7 +157,7 @@ std::string PlanText(const ApplyReport& report) {
 
 std::string LineOf(const AppliedTo& applied) {
   if (!applied.in_effect) {
-    return fmt::format("{}: {}\n", NameOf(applied.vehicle), Shown(applied.refusal));
+    return fmt::format("{}: {}\n", NameOf(applied.vehicle), Printable(applied.refusal));
   }
   return fmt::format("{}: in effect after {:.2f} s{}; {} of {} values seen in it\n",
                      NameOf(applied.vehicle), applied.seconds,
@@ -166,7 +189,7 @@ std::string LineOf(const ApplyReport& report) {
     case ApplyVerdict::kNotRolledBack:
       return fmt::format(
           "NOT rolled back: vehicle {} did not say that it runs with {} again; see its log\n",
-          Number(report.trial->vehicle), Shown(report.vehicles.front().before));
+          Number(report.trial->vehicle), Printable(report.vehicles.front().before));
     case ApplyVerdict::kNotSeen:
       return "a process says it is in effect, and its endpoints run with other values\n";
     case ApplyVerdict::kNothingToDo:
@@ -179,8 +202,12 @@ std::string LineOf(const ApplyReport& report) {
   const auto vehicles = std::ranges::count_if(
       report.vehicles, [](const AppliedTo& applied) { return applied.vehicle != kNoVehicle; });
   const bool world = static_cast<std::size_t>(vehicles) < report.vehicles.size();
-  return fmt::format("{} in effect on {} vehicle{}{}\n", report.profile, vehicles,
-                     vehicles == 1 ? "" : "s", world ? " and the world" : "");
+  return fmt::format(
+      "a process keeps it until it is started from outside, as after a crash, and may then match\n"
+      "no other: set its --qos or GIVEWAY_QOS to {}, too\n"
+      "{} in effect on {} vehicle{}{}\n",
+      report.profile, report.profile, vehicles, vehicles == 1 ? "" : "s",
+      world ? " and the world" : "");
 }
 
 std::string ToJson(const ApplyReport& report) {

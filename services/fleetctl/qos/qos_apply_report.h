@@ -8,6 +8,7 @@
 #include "services/fleetctl/qos/canary.h"
 #include "services/qos/changes.h"
 #include "services/qos/finding.h"
+#include "services/types/admin.h"
 #include "services/types/ids.h"
 
 namespace giveway::fleetctl {
@@ -51,6 +52,11 @@ struct ApplyReport {
   std::string remedy;      // of a refusal that is not a finding
   ApplyVerdict verdict = ApplyVerdict::kApplied;
 };
+
+// Whether the endpoints run with the changed values. `before` is what the process answered before
+// the first of its orders: what it had other than its file said, code decides, as announcements in
+// a large fleet, and so it does with the new one.
+void HoldAgainstChanges(const AdminAnswer& before, const AdminAnswer& now, AppliedTo* applied);
 
 // "vehicle 3"; for kNoVehicle "the world".
 std::string NameOf(VehicleId process);

@@ -1,3 +1,4 @@
+#include <limits>
 #include <memory>
 #include <set>
 #include <string>
@@ -74,8 +75,9 @@ void AddQosApply(CLI::App* qos, int* exit_code) {
       ->required()
       ->delimiter(',')
       ->type_name("ID,...|all");
-  CLI::Option* canary =
-      verb->add_option("--canary", options->canary, "This one first, on trial")->type_name("ID");
+  CLI::Option* canary = verb->add_option("--canary", options->canary, "This one first, on trial")
+                            ->type_name("ID")
+                            ->check(CLI::Range(1U, std::numeric_limits<std::uint32_t>::max()));
   AddTimeFlag(verb, "--watch", &options->watch_s, "How long the canary is on trial")
       ->default_str("10s")
       ->needs(canary);

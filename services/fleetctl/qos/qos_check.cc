@@ -12,16 +12,20 @@
 #include "services/config/scenario_file.h"
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/output/finding_text.h"
+#include "services/fleetctl/output/output_file.h"
 #include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/exit_codes.h"
+#include "services/qos/compose_text.h"
 #include "services/runtime/json.h"
+#include "services/runtime/whole_file.h"
 
 namespace giveway::fleetctl {
 namespace {
 
 namespace fs = std::filesystem;
 
-void Print(const qos::Findings& findings, std::size_t files, bool json) {
+// False if stdout did not take all of it.
+bool Print(const qos::Findings& findings, std::size_t files, bool json) {
   std::string text;
   if (json) {
     Json object;
@@ -31,7 +35,7 @@ void Print(const qos::Findings& findings, std::size_t files, bool json) {
     for (const qos::Finding& finding : findings) text += ToText(finding);
     text += Counted(files, "file") + ", " + Tally(findings);
   }
-  std::puts((json ? text : ForTerminal(text)).c_str());
+  return PrintAll((json ? text : ForTerminal(text)) + "\n");
 }
 
 qos::Deployment DeploymentOf(const QosCheckOptions& options) {
@@ -95,6 +99,13 @@ void AddServices(const std::vector<qos::ComposeService>& services, const fs::pat
   }
 }
 
+// What compose puts into a file of that folder: this shell's variables, then those of its .env.
+std::vector<std::string> VariablesFor(const fs::path& folder, std::vector<std::string> own) {
+  std::ranges::move(qos::EnvFileVariables(ReadWholeFile(folder / ".env").value_or("")),
+                    std::back_inserter(own));
+  return own;
+}
+
 // The services of the compose file, with their sets; the number of vehicles goes to `deployment`.
 void AddCompose(const QosCheckOptions& options, qos::Deployment* deployment, Checked* checked) {
   auto read = ReadQosFile(options.compose);
@@ -103,8 +114,10 @@ void AddCompose(const QosCheckOptions& options, qos::Deployment* deployment, Che
     checked->findings.push_back(std::move(*why));
     return;
   }
-  qos::ComposeRead compose = qos::ReadCompose(std::get<qos::ProfileFile>(read).bytes,
-                                              options.compose, deployment->environment);
+  const std::vector<std::string> variables =
+      VariablesFor(fs::path(options.compose).parent_path(), deployment->environment);
+  qos::ComposeRead compose =
+      qos::ReadCompose(std::get<qos::ProfileFile>(read).bytes, options.compose, variables);
   std::ranges::move(compose.findings, std::back_inserter(checked->findings));
   qos::CheckCompose(compose.services, &checked->findings);
   AddServices(compose.services, fs::path(options.compose).parent_path(), checked);
@@ -127,8 +140,8 @@ int Check(const QosCheckOptions& options) {
   qos::Findings findings = std::move(checked.findings);
   std::ranges::move(qos::Check(checked.files, deployment, checked.given),
                     std::back_inserter(findings));
-  Print(findings, checked.named, options.json);
-  return std::fflush(stdout) == 0 ? qos::ExitCode(findings) : kCouldNotRun;
+  const bool printed = Print(findings, checked.named, options.json);
+  return printed ? qos::ExitCode(findings) : kCouldNotRun;
 }
 
 }  // namespace

@@ -98,13 +98,16 @@ EffectiveSet EffectiveQosOfFile(const std::string& argument, const std::string& 
   options.fleet_size = vehicles;
   const std::string file = ResolveQosFile(argument);
   options.qos = ReadQosOrThrow(file);
-  EffectiveSet set{options.qos.name, EffectiveQos(ResolveQosInChild(options), SetOf(options.qos))};
+  EffectiveSet set{options.qos.name, options.qos.text,
+                   EffectiveQos(ResolveQosInChild(options), SetOf(options.qos))};
   set.endpoints.front().rows.push_back(InterfaceRow(interface));
   return set;
 }
 
 std::string OriginText(const QosRow& row, const std::string& file) {
-  if (row.origin == QosOrigin::kProfile) return file + ":" + std::to_string(row.line);
+  if (row.origin == QosOrigin::kProfile) {
+    return row.line == 0 ? file : file + ":" + std::to_string(row.line);
+  }
   return row.origin == QosOrigin::kDefault ? "library default" : Name(row.origin);
 }
 

@@ -25,7 +25,7 @@ struct QosRow {
   std::string policy;
   std::string value;  // in readable form
   QosOrigin origin = QosOrigin::kDefault;
-  int line = 0;  // of kProfile
+  int line = 0;  // of kProfile; 0: not known
 };
 
 struct EffectiveEndpoint {
@@ -40,6 +40,7 @@ std::vector<EffectiveEndpoint> EffectiveQos(const std::vector<link::ResolvedEnti
 
 struct EffectiveSet {
   std::string file;
+  std::string text;                          // of the file
   std::vector<EffectiveEndpoint> endpoints;  // the participant first
 };
 

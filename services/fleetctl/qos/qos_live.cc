@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
 #include "services/fleetctl/args/observer_session.h"
 #include "services/fleetctl/args/qos_files.h"
+#include "services/fleetctl/output/output_file.h"
 #include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
@@ -41,8 +41,9 @@ struct LiveRow {
 
 // What is known of a vehicle: its own answer, or for a foreign one what discovery reports.
 struct LiveQos {
-  std::string runs_with;  // the name of its set; empty for a foreign one
-  std::string foreign;    // the vendor of its DDS, if it is not ours
+  std::string runs_with;         // the name of its set; empty for a foreign one
+  std::string foreign;           // the vendor of its DDS, if it is not ours
+  std::uint32_t fleet_size = 0;  // as it says; 0 of a foreign one
   std::vector<EffectiveEndpoint> endpoints;
 };
 
@@ -81,7 +82,7 @@ std::optional<LiveQos> LiveQosOf(const QosLiveOptions& options, const std::strin
   bool reached = client.Seek({vehicle}, kOwnPatience).empty();
   if (!reached) {
     if (auto foreign = SeekForeign(link_options, vehicle)) {
-      return LiveQos{"", std::move(foreign->vendor), std::move(foreign->endpoints)};
+      return LiveQos{"", std::move(foreign->vendor), 0, std::move(foreign->endpoints)};
     }
     reached = client.Seek({vehicle}, kAnswerPatience).empty();
   }
@@ -98,7 +99,7 @@ std::optional<LiveQos> LiveQosOf(const QosLiveOptions& options, const std::strin
     *exit_code = ReportRefused(*answer);
     return std::nullopt;
   }
-  return LiveQos{answer->profiles.name, "", LiveEndpoints(*answer)};
+  return LiveQos{answer->profiles.name, "", answer->fleet_size, LiveEndpoints(*answer)};
 }
 
 std::optional<QosRow> Expected(const EffectiveSet& set, const std::string& profile,
@@ -177,16 +178,19 @@ std::string Text(const std::string& file, const LiveQos& live, const std::vector
 
 int RunQosLive(const QosLiveOptions& options) {
   if (!HasStdout()) return kCouldNotRun;
-  const EffectiveSet set =
-      EffectiveQosOfFile(options.set.qos_file, options.set.interface, options.set.vehicles);
+  const auto expected = [&](std::uint32_t vehicles) {
+    return EffectiveQosOfFile(options.set.qos_file, options.set.interface, vehicles);
+  };
+  EffectiveSet set = expected(options.set.vehicles);  // before any vehicle is asked
   int exit_code = 0;
   const auto live = LiveQosOf(options, set.file, &exit_code);
   if (!live) return exit_code;
+  const bool other_size = live->fleet_size > 0 && live->fleet_size != options.set.vehicles;
+  if (options.of_its_fleet && other_size) set = expected(live->fleet_size);
   const std::vector<LiveRow> all = HoldAgainst(set, *live, options.set.wanted);
   const std::string text = options.set.json ? ToJson(options, set.file, *live, all)
                                             : ForTerminal(Text(set.file, *live, all));
-  std::fputs(text.c_str(), stdout);
-  if (std::fflush(stdout) != 0) return kCouldNotRun;
+  if (!PrintAll(text)) return kCouldNotRun;
   return std::ranges::all_of(all, &LiveRow::AsExpected) ? 0 : 1;
 }
 

@@ -10,7 +10,8 @@
 namespace giveway::fleetctl {
 
 struct QosLiveOptions {
-  QosShowOptions set;  // the file to compare with
+  QosShowOptions set;        // the file to compare with
+  bool of_its_fleet = true;  // the fleet's size is as the vehicle says, not `set.vehicles`
   std::uint32_t vehicle = 0;
   std::uint32_t domain = 0;
   std::string admin_key;  // a file; empty: that of a fleet started here, if there is one

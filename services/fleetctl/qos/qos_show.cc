@@ -3,28 +3,35 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "services/config/problem.h"
+#include "services/fleetctl/output/output_file.h"
 #include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/qos/qos_effective.h"
+#include "services/qos/changes.h"
+#include "services/qos/deployment.h"
+#include "services/qos/xml_tree.h"
 #include "services/runtime/json.h"
 
 namespace giveway::fleetctl {
 namespace {
 
+// By its profile or its topic; all, where none is named.
+bool IsWanted(const std::vector<std::string>& wanted, const std::string& profile) {
+  const qos::Topic* const topic = qos::TopicOfProfile(profile);
+  return wanted.empty() || std::ranges::any_of(wanted, [&](const std::string& word) {
+           return word == profile || (topic != nullptr && word == topic->name);
+         });
+}
+
 EffectiveSet Resolve(const std::string& argument, const QosShowOptions& options) {
   EffectiveSet shown = EffectiveQosOfFile(argument, options.interface, options.vehicles);
-  const auto unwanted = [&](const EffectiveEndpoint& endpoint) {
-    return !options.wanted.empty() &&
-           std::ranges::none_of(options.wanted, [&](const std::string& word) {
-             return word == endpoint.profile || word == endpoint.topic;
-           });
-  };
-  std::erase_if(shown.endpoints, unwanted);
+  std::erase_if(shown.endpoints, [&](const EffectiveEndpoint& endpoint) {
+    return !IsWanted(options.wanted, endpoint.profile);
+  });
   if (shown.endpoints.empty()) {
     throw InputError({{options.wanted.front(), 0, "", "", "is no profile and no topic",
                        "name one, as fleet_beacon_writer or fleet/beacon"}});
@@ -80,7 +87,28 @@ struct Difference {
   QosRow b;
 };
 
-std::vector<Difference> Differences(const EffectiveSet& a, const EffectiveSet& b) {
+// A value that one of the files does not have is the library's.
+QosRow RowOf(const std::string& what, const std::string& value) {
+  if (value.empty()) return {what, "-", QosOrigin::kDefault};
+  return {what, value, QosOrigin::kProfile};
+}
+
+// What no table of policies holds, which the library resolves by itself: transports and the like.
+void AddDifferencesElsewhere(const EffectiveSet& a, const EffectiveSet& b,
+                             const std::vector<std::string>& wanted,
+                             std::vector<Difference>* found) {
+  const qos::XmlRead from = qos::ReadXml(a.text, a.file);
+  const qos::XmlRead to = qos::ReadXml(b.text, b.file);
+  if (!from.root || !to.root) return;
+  for (const qos::Change& change : qos::ChangesElsewhere(*from.root, *to.root)) {
+    if (!IsWanted(wanted, change.profile)) continue;
+    found->push_back(
+        {change.profile, RowOf(change.what, change.from), RowOf(change.what, change.to)});
+  }
+}
+
+std::vector<Difference> Differences(const EffectiveSet& a, const EffectiveSet& b,
+                                    const std::vector<std::string>& wanted) {
   std::vector<Difference> found;
   // Both were resolved by one list of endpoints and one table of policies.
   for (std::size_t i = 0; i < a.endpoints.size() && i < b.endpoints.size(); ++i) {
@@ -91,6 +119,7 @@ std::vector<Difference> Differences(const EffectiveSet& a, const EffectiveSet& b
       found.push_back({a.endpoints[i].profile, row, *other});
     }
   }
+  AddDifferencesElsewhere(a, b, wanted, &found);
   return found;
 }
 
@@ -127,15 +156,16 @@ std::string ToJson(const std::vector<Difference>& differences, const EffectiveSe
 int RunQosShow(const QosShowOptions& options) {
   if (options.diff.empty()) {
     const EffectiveSet shown = Resolve(options.qos_file, options);
-    std::fputs((options.json ? ToJson(shown) : FoldedForTerminal(ToText(shown))).c_str(), stdout);
-    return std::fflush(stdout) == 0 ? 0 : kCouldNotRun;
+    const bool all = PrintAll(options.json ? ToJson(shown) : FoldedForTerminal(ToText(shown)));
+    return all ? 0 : kCouldNotRun;
   }
   const EffectiveSet a = Resolve(options.diff.at(0), options);
   const EffectiveSet b = Resolve(options.diff.at(1), options);
-  const std::vector<Difference> found = Differences(a, b);
-  std::fputs((options.json ? ToJson(found, a, b) : FoldedForTerminal(ToText(found, a, b))).c_str(),
-             stdout);
-  return std::fflush(stdout) != 0 ? kCouldNotRun : found.empty() ? 0 : 1;
+  const std::vector<Difference> found = Differences(a, b, options.wanted);
+  if (!PrintAll(options.json ? ToJson(found, a, b) : FoldedForTerminal(ToText(found, a, b)))) {
+    return kCouldNotRun;
+  }
+  return found.empty() ? 0 : 1;
 }
 
 }  // namespace giveway::fleetctl

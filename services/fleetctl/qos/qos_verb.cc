@@ -87,9 +87,11 @@ void AddShow(CLI::App* qos, int* exit_code) {
   verb->add_option("--interface", options->interface, "Network interface, or 'any'")
       ->capture_default_str()
       ->envname("GIVEWAY_INTERFACE");
-  verb->add_option("--vehicles", options->vehicles, "Fleet size: some values follow from it")
-      ->capture_default_str()
-      ->check(CLI::Range(1U, kMostReckonedWith));
+  auto* vehicles = verb->add_option("--vehicles", options->vehicles,
+                                    "Fleet size: some values follow from it. With --live as the "
+                                    "vehicle says it, if not given")
+                       ->capture_default_str()
+                       ->check(CLI::Range(1U, kMostReckonedWith));
   auto* vehicle = verb->add_option("--live", live->vehicle,
                                    "What this vehicle runs with, held against the file")
                       ->check(CLI::Range(1U, std::numeric_limits<std::uint32_t>::max()));
@@ -99,7 +101,7 @@ void AddShow(CLI::App* qos, int* exit_code) {
       ->check(CLI::Range(1U, 99U))
       ->envname("GIVEWAY_DOMAIN");
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
-  verb->callback([options, live, vehicle, exit_code] {
+  verb->callback([options, live, vehicle, vehicles, exit_code] {
     if (vehicle->count() == 0) {
       *exit_code = RunQosShow(*options);
       return;
@@ -109,6 +111,7 @@ void AddShow(CLI::App* qos, int* exit_code) {
     options->interface = where.interface;
     live->domain = where.domain;
     live->set = *options;
+    live->of_its_fleet = vehicles->count() == 0;
     *exit_code = RunQosLive(*live);
   });
 }

@@ -17,6 +17,7 @@
 #include "services/link/sample_codec.h"
 #include "services/mcap/mcap_reader.h"
 #include "services/observer/fleet/sample_json.h"
+#include "services/runtime/utf8.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -33,35 +34,48 @@ class Exporting {
       std::fprintf(stderr, "%s: cannot be read: %s\n", options_.file.c_str(), std::strerror(errno));
       return kCouldNotRun;
     }
-    if (options_.csv && !ReadColumns(&file)) {
+    return options_.csv ? RunCsv(&file) : Finish(Write(&file));
+  }
+
+ private:
+  using Use = std::function<bool(Json sample)>;  // false: enough
+
+  // What is damaged is known from the first reading; the second ends with the samples of the first.
+  int RunCsv(std::ifstream* file) {
+    const mcap::ReadResult all = ReadColumns(file);
+    if (!Rewind(file)) {
       std::fprintf(stderr, "%s: cannot be read a second time, as CSV needs it; --json reads once\n",
                    options_.file.c_str());
       return kCouldNotRun;
     }
-    if (options_.csv && samples_ > 0) output_ = WriteStdout(columns_.Head());
-    const mcap::ReadResult result = Read(&file, [this](Json sample) {
+    const std::uint64_t unreadable = std::exchange(unreadable_, 0);
+    if (samples_ > 0) output_ = WriteStdout(columns_.Head());
+    Write(file);
+    unreadable_ = unreadable;
+    return Finish(all);
+  }
+
+  mcap::ReadResult Write(std::ifstream* file) {
+    return Read(file, [this](Json sample) {
       ++written_;
       output_ = WriteStdout(options_.csv ? columns_.Row(Flattened(sample))
                                          : JsonText(std::move(sample)) + "\n");
       // A growing file may have further columns by now.
       return output_ == WriteResult::kWritten && written_ != samples_;
     });
-    if (output_ != WriteResult::kWritten) return ExitCodeOf(output_);
-    return Finish(result);
   }
-
- private:
-  using Use = std::function<bool(Json sample)>;  // false: enough
 
   // Optional fields come and go: the names of all samples are collected before the header is
   // written.
-  bool ReadColumns(std::ifstream* file) {
-    Read(file, [this](const Json& sample) {
+  mcap::ReadResult ReadColumns(std::ifstream* file) {
+    return Read(file, [this](const Json& sample) {
       ++samples_;
       columns_.Add(Flattened(sample));
       return true;
     });
-    unreadable_ = 0;
+  }
+
+  static bool Rewind(std::ifstream* file) {
     file->clear();
     file->seekg(0);
     return file->good();
@@ -121,12 +135,15 @@ class Exporting {
 
   // Of the whole file: where nothing is of the topic, all of it has been read.
   std::string Topics() const {
-    return topics_.empty() ? "no samples" : fmt::format("{}", fmt::join(topics_, ", "));
+    if (topics_.empty()) return "no samples";
+    return Printable(Shortened(fmt::format("{}", fmt::join(topics_, ", ")), kMostTopicsBytes));
   }
 
   int Finish(const mcap::ReadResult& result) const {
+    if (output_ != WriteResult::kWritten) return ExitCodeOf(output_);
     if (!result.fault.empty()) {
-      std::fprintf(stderr, "%s: %s\n", options_.file.c_str(), result.fault.c_str());
+      std::fprintf(stderr, "%s: %s\n", options_.file.c_str(),
+                   Printable(Shortened(result.fault, kMostFaultBytes)).c_str());
     }
     if (unreadable_ > 0) {
       std::fprintf(stderr, "%s: %llu samples of %s could not be decoded\n", options_.file.c_str(),
@@ -143,6 +160,8 @@ class Exporting {
     return result.fault.empty() && unreadable_ == 0 && written_ > 0 ? 0 : kNotAllExported;
   }
 
+  static constexpr std::size_t kMostTopicsBytes = 4096;
+  static constexpr std::size_t kMostFaultBytes = 400;
   const ExportOptions& options_;
   CsvColumns columns_;
   Use use_;

@@ -61,7 +61,7 @@ class Recording {
     const SteadyTime now = SteadyNow();
     link_.Take([&](link::RawSample sample) {
       if (options_.last_s > 0) {
-        ring_.Add(std::move(sample));
+        ring_.Add(std::move(sample), now);
       } else {
         Write(sample, now);
       }
@@ -75,8 +75,8 @@ class Recording {
   }
 
   int Finish() {
+    Interrupts::AllowSeconds(kWriteSeconds);  // of a ring, and of what is attached
     if (options_.last_s > 0) {
-      Interrupts::AllowSeconds(kWriteSeconds);
       for (const link::RawSample& sample : ring_.Samples()) Write(sample, SteadyTime{0});
       if (ring_.Dropped() > 0) {
         std::fprintf(stderr, "%llu samples were too many for the memory of a ring\n",

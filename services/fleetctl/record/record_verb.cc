@@ -36,7 +36,13 @@ std::uint64_t SizeOf(const std::string& flag, const std::string& text) {
   throw CLI::ValidationError(flag, "\"" + text + "\": " + kSplitRemedy);
 }
 
+// A bare number is refused: --keep takes it as bytes, --last as seconds.
 void SetSplit(const std::string& text, CaptureOptions* files) {
+  if (!text.empty() && text.find_first_not_of("0123456789.") == std::string::npos) {
+    throw CLI::ValidationError(
+        "--split",
+        "\"" + text + "\" has no unit; write a size, such as 256MiB, or a time, such as 600s");
+  }
   if (const auto seconds = ParseDuration_s(text); seconds && *seconds >= 1) {
     files->split_time = Nanoseconds(static_cast<std::int64_t>(*seconds * 1e9));
     return;
@@ -63,7 +69,8 @@ void AddRecordVerb(CLI::App* fleetctl, int* exit_code) {
   const auto options = std::make_shared<RecordOptions>();
   CLI::App* verb = fleetctl->add_subcommand("record", "Record what travels into an MCAP file");
   verb->footer(kRecordFooter);
-  verb->add_option("OUT", options->files.path, "The file, OUT.mcap; it must not be there yet")
+  verb->add_option("OUT", options->files.path,
+                   "The file, OUT.mcap; it must not be there yet. Of parts, the numbers continue")
       ->required()
       ->check(CheckRecordingName);
   AddObserverFlags(verb, &options->where);
@@ -74,7 +81,7 @@ void AddRecordVerb(CLI::App* fleetctl, int* exit_code) {
                  "Write the fleet as ROS 2 messages, too, so that `ros2 bag play` takes the file");
   verb->add_option("--ros2-rate", options->ros2_rate_hz,
                    "ROS 2 messages a second of each topic; default 10")
-      ->check(CLI::Range(0.1, 100.0));
+      ->check(Between(0.1, 100));
   verb->add_option_function<std::string>(
       "--split", [options](const std::string& text) { SetSplit(text, &options->files); },
       "Another file at this size or after this time: 256MiB, 10m");

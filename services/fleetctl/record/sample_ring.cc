@@ -1,23 +1,23 @@
 #include "services/fleetctl/record/sample_ring.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace giveway::fleetctl {
 
-SampleRing::SampleRing(double last_s) : last_ns_(static_cast<std::uint64_t>(last_s * 1e9)) {}
+SampleRing::SampleRing(double last_s) : last_(FromSeconds(last_s)) {}
 
 void SampleRing::DropFirst() {
   bytes_ -= samples_.front().bytes.size() + sizeof(link::RawSample);
   samples_.pop_front();
+  added_at_.pop_front();
 }
 
-void SampleRing::Add(link::RawSample sample) {
-  newest_ns_ = std::max(newest_ns_, sample.reception_ns);
+void SampleRing::Add(link::RawSample sample, SteadyTime now) {
   bytes_ += sample.bytes.size() + sizeof(link::RawSample);
   samples_.push_back(std::move(sample));
-  while (newest_ns_ - samples_.front().reception_ns > last_ns_) DropFirst();
-  while (bytes_ > kMostBytes) {
+  added_at_.push_back(now);
+  while (!samples_.empty() && now - added_at_.front() > last_) DropFirst();
+  while (!samples_.empty() && bytes_ > kMostBytes) {
     DropFirst();
     ++dropped_;
   }

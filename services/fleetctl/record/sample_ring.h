@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "services/link/raw_link.h"
+#include "services/types/time.h"
 
 namespace giveway::fleetctl {
 
@@ -14,7 +15,8 @@ class SampleRing {
 
   explicit SampleRing(double last_s);
 
-  void Add(link::RawSample sample);
+  // `now` is steady: a sample's own times are those of clocks that may be set back.
+  void Add(link::RawSample sample, SteadyTime now);
   const std::deque<link::RawSample>& Samples() const { return samples_; }
   // Samples within the requested time that were dropped for lack of memory.
   std::uint64_t Dropped() const { return dropped_; }
@@ -22,10 +24,10 @@ class SampleRing {
  private:
   void DropFirst();
 
-  const std::uint64_t last_ns_;
+  const Nanoseconds last_;
   std::deque<link::RawSample> samples_;
+  std::deque<SteadyTime> added_at_;  // of each sample
   std::uint64_t bytes_ = 0;
-  std::uint64_t newest_ns_ = 0;
   std::uint64_t dropped_ = 0;
 };
 

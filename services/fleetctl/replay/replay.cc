@@ -130,8 +130,7 @@ int RunReplay(const ReplayOptions& options) {
     files[file].file = options.files[file];
   }
   const std::string text = options.json ? ToJson(files) + "\n" : ForTerminal(ToText(files));
-  std::fputs(text.c_str(), stdout);
-  const bool written = std::fflush(stdout) == 0;
+  const bool written = PrintAll(text);
   if (!written) std::fprintf(stderr, "cannot write the verdict to stdout\n");
   const int code = std::max(ExitCode(OverallVerdict(files)), written ? 0 : 1);
   if (options.trace_file.empty()) return code;

@@ -1,8 +1,10 @@
+#include <cstdio>
 #include <memory>
 
 #include "services/fleetctl/args/flag_checks.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/playback/playback.h"
+#include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/replay/replay.h"
 
 namespace giveway::fleetctl {
@@ -24,7 +26,9 @@ Examples
   fleetctl replay tapes/vehicle-2.recording --trace 2.tsv
   fleetctl replay tapes/* --json | jq '.files[] | select(.difference)'
 
-Exit code: 0 all the same, 1 a step differs, 2 a file could not be replayed to its end.
+Exit code: 0 all the same, 1 a step differs, 2 a file could not be replayed to its end. Of an MCAP
+file: 0 shown, 1 there is nothing of a fleet in it, 2 it could not be read, or is damaged and was shown
+up to there. One that was cut off is whole as far as it goes.
 )";
 
 }  // namespace
@@ -38,18 +42,29 @@ void AddReplayVerb(CLI::App* fleetctl, int* exit_code) {
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
   verb->add_option("--trace", options->trace_file, "Write every decision of the only recording");
   const auto page = std::make_shared<PlaybackOptions>();
-  verb->add_option("--port", page->port, "Of an MCAP file: port of the page; default 8080")
-      ->check(CLI::Range(1U, 65535U));
+  CLI::Option* const port =
+      verb->add_option("--port", page->port, "Of an MCAP file: port of the page; default 8080")
+          ->check(CLI::Range(1U, 65535U));
   verb->add_option("--address", page->address, "Of an MCAP file: address of the page")
       ->check(CheckNotEmpty)
       ->capture_default_str();
   verb->add_option("--scenario", page->scenario,
                    "Of an MCAP file: shows the walls of this scenario");
   verb->add_option("--html", page->html_file, "Of an MCAP file: write the page with the run in it");
-  verb->callback([options, page, exit_code] {
-    if (options->files.size() == 1 && IsMcapFile(options->files.front())) {
+  verb->callback([options, page, port, exit_code] {
+    const bool shown = options->files.size() == 1 && IsMcapFile(options->files.front());
+    if (shown && (options->json || !options->trace_file.empty())) {
+      std::fprintf(stderr, "%s: an MCAP file is shown on a page; leave out --json and --trace\n",
+                   options->files.front().c_str());
+      *exit_code = kCouldNotRun;
+    } else if (shown) {
       page->file = options->files.front();
       *exit_code = RunPlayback(*page);
+    } else if (port->count() > 0 || !page->scenario.empty() || !page->html_file.empty()) {
+      std::fprintf(
+          stderr,
+          "--port, --scenario and --html are for a single MCAP file, which is shown on a page\n");
+      *exit_code = kCouldNotRun;
     } else {
       *exit_code = RunReplay(*options);
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/runtime/utf8.h"
 #include "services/snapshot/brain_state.h"
 
 namespace giveway::fleetctl {
@@ -19,14 +20,6 @@ std::optional<FieldDifference> Compare(const RecordedStep& recorded, const Outpu
 }
 
 constexpr std::size_t kMostFailureBytes = 200;
-
-// A text from a file, made safe for a terminal.
-std::string Printable(std::string text) {
-  text.resize(std::min(text.size(), kMostFailureBytes));
-  std::ranges::replace_if(
-      text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-  return text;
-}
 
 }  // namespace
 
@@ -113,7 +106,7 @@ void Replayer::Lead(RecordingFile* file, const ReplayWatcher& watch, ReplayedFil
   const std::optional<RecordedEnd>& end = file->End();
   outcome->complete = end.has_value();
   outcome->lost = end ? end->lost : 0;
-  outcome->failure = end ? Printable(end->failure) : "";
+  outcome->failure = end ? Printable(Shortened(end->failure, kMostFailureBytes)) : "";
   // A ring may have started a file just before it ended. Without steps, the comparison of its image
   // with the brain that was replayed up to there is enough.
   if (outcome->steps == 0 && outcome->finding.empty() && !compared_image) {

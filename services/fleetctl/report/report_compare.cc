@@ -10,6 +10,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "services/fleetctl/soak/resource_series.h"
 #include "services/fleetctl/soak/soak_format.h"
 #include "services/fleetctl/soak/soak_phases.h"
 #include "services/statistics/distributions.h"
@@ -20,13 +21,17 @@ namespace {
 
 constexpr double kLeastChange = 0.05;                     // of a time; less does not matter
 constexpr double kSameBlocks = 1e-3;                      // of a block's length
+constexpr double kLeastLikeSpan = 0.75;                   // the shorter of two lives, of the longer
 constexpr double kIntervalWidth = 2 * 1.959963984540054;  // of 95 %, in standard deviations
 
 // Why a figure was not tested.
 constexpr const char* kNoBlocks = "a report without blocks of time: it is older, or was resumed";
 constexpr const char* kOtherLengths = "soaks of different durations";
+constexpr const char* kTooShort = "one of them ended within its first block of time";
 constexpr const char* kOneEvent = "all values stem from one event, and one soak cannot decide";
 constexpr const char* kNotAllListed = "not all violations are listed with their times";
+constexpr const char* kNotAllFaults = "not all faults are listed";
+constexpr const char* kUnlikeLives = "lives that are too short, or of different lengths";
 constexpr const char* kAreViolations = "each is among the violations";
 
 // A figure with the p values of both directions, before correction for multiple tests.
@@ -49,6 +54,12 @@ class Figures {
     if (figure.before != figure.after) figure.change = Change::kUntested;
     figure.why_untested = std::move(why);
     sure_.push_back(std::move(figure));
+  }
+
+  // Unless there is a reason not to test it.
+  void AddUnless(const std::string& why_not, TestedFigure tested) {
+    if (why_not.empty()) return Add(std::move(tested));
+    AddUntested(std::move(tested.figure), why_not);
   }
 
   std::vector<ComparedFigure> Judged() && {
@@ -96,7 +107,7 @@ CommonBlocks CommonBlocksOf(const SoakResult& before, const SoakResult& after) {
     return {0, kOtherLengths};
   }
   const double full = std::min(before.ran_s, after.ran_s) / before.block_s + kSameBlocks;
-  if (!(full > 0)) return {};
+  if (!(full >= 1)) return {0, kTooShort};
   return {static_cast<std::size_t>(std::min(full, static_cast<double>(kSoakBlocks))), {}};
 }
 
@@ -121,13 +132,11 @@ BlockSeries SeriesOf(const SoakHistogram& before, const SoakHistogram& after, st
 
 void AddSeries(TestedFigure tested, const BlockSeries& series, const std::string& why_not,
                Figures* figures) {
-  if (!why_not.empty()) {
-    figures->AddUntested(std::move(tested.figure), why_not);
-    return;
+  if (why_not.empty()) {
+    tested.p_worse = statistics::SeriesGreater(series.before, series.after);
+    tested.p_better = statistics::SeriesGreater(series.after, series.before);
   }
-  tested.p_worse = statistics::SeriesGreater(series.before, series.after);
-  tested.p_better = statistics::SeriesGreater(series.after, series.before);
-  figures->Add(std::move(tested));
+  figures->AddUnless(why_not, std::move(tested));
 }
 
 // Of the whole run, in the unit of both.
@@ -189,6 +198,12 @@ double LeastOf(ResourceKind kind) {
                                            : statistics::kLeastLeakBytes;
 }
 
+// What fills up grows, by the hour, the more the shorter the life.
+bool AreLikeLives(const ResourceSlope& was, const ResourceSlope& is) {
+  const auto [shorter_s, longer_s] = std::minmax(was.slope.spans_s, is.slope.spans_s);
+  return shorter_s >= kLeastLeakSpan_s && shorter_s >= kLeastLikeSpan * longer_s;
+}
+
 void CompareSlope(const ResourceSlope& was, const ResourceSlope& is, Figures* figures) {
   const double rise = is.slope.per_hour - was.slope.per_hour;
   const double error = std::hypot(was.slope.high_per_hour - was.slope.low_per_hour,
@@ -201,13 +216,15 @@ void CompareSlope(const ResourceSlope& was, const ResourceSlope& is, Figures* fi
     p_better = 1 - p_worse;
   }
   const double least = LeastOf(was.kind);
-  figures->Add({.figure = {.what = fmt::format("{} {} an hour", was.process, ToString(was.kind)),
-                           .before = FormatResource(was.kind, was.slope.per_hour),
-                           .after = FormatResource(is.kind, is.slope.per_hour)},
-                .p_worse = p_worse,
-                .p_better = p_better,
-                .may_be_worse = rise >= least && is.slope.low_per_hour > 0,
-                .may_be_better = -rise >= least && was.slope.low_per_hour > 0});
+  figures->AddUnless(
+      AreLikeLives(was, is) ? "" : kUnlikeLives,
+      {.figure = {.what = fmt::format("{} {} an hour", was.process, ToString(was.kind)),
+                  .before = FormatResource(was.kind, was.slope.per_hour),
+                  .after = FormatResource(is.kind, is.slope.per_hour)},
+       .p_worse = p_worse,
+       .p_better = p_better,
+       .may_be_worse = rise >= least && is.slope.low_per_hour > 0,
+       .may_be_better = -rise >= least && was.slope.low_per_hour > 0});
 }
 
 void CompareSlopes(const SoakResult& before, const SoakResult& after, Figures* figures) {
@@ -241,7 +258,7 @@ struct FaultEvidence {
 std::map<std::string, FaultEvidence> EvidenceOf(const SoakResult& result, double block_s) {
   std::vector<std::vector<SoakFault>> by_block(kSoakBlocks);
   for (const SoakFault& fault : result.faults) {
-    by_block[BlockOf(fault.at_s, block_s)].push_back(fault);
+    by_block[BlockOf(StartOf(fault), block_s)].push_back(fault);
   }
   std::map<std::string, FaultEvidence> evidence;
   for (const std::vector<SoakFault>& faults : by_block) {
@@ -257,52 +274,70 @@ std::map<std::string, FaultEvidence> EvidenceOf(const SoakResult& result, double
   return evidence;
 }
 
-// The figure is that of all faults, the test that of the blocks.
-void CompareTimes(const std::string& what, const std::vector<double>& was,
-                  const std::vector<double>& blocks_before, const std::vector<double>& is,
-                  const std::vector<double>& blocks_after, Figures* figures) {
-  if (was.empty() || is.empty()) return;
-  const double median_before = *MedianOf(was);
-  const double median_after = *MedianOf(is);
-  figures->Add({.figure = {.what = what,
-                           .before = FormatSeconds(median_before),
-                           .after = FormatSeconds(median_after)},
-                .p_worse = statistics::MannWhitneyGreater(blocks_before, blocks_after),
-                .p_better = statistics::MannWhitneyGreater(blocks_after, blocks_before),
-                .may_be_worse = GrewEnough(median_before, median_after),
-                .may_be_better = GrewEnough(median_after, median_before)});
-}
+// The figures of one kind are those of all its faults, the tests those of the blocks.
+class KindComparison {
+ public:
+  // `why_not`: why nothing is tested; empty: it is.
+  KindComparison(std::string kind, std::string why_not, Figures* figures)
+      : kind_(std::move(kind)), why_not_(std::move(why_not)), figures_(*figures) {}
 
-struct Share {
-  std::size_t hits = 0;
-  std::size_t of = 0;
+  void CompareTimes(std::string_view what, const std::vector<double>& was,
+                    const std::vector<double>& blocks_before, const std::vector<double>& is,
+                    const std::vector<double>& blocks_after) {
+    if (was.empty() || is.empty()) return;
+    const double median_before = *MedianOf(was);
+    const double median_after = *MedianOf(is);
+    Add({.figure = FigureOf(what, FormatSeconds(median_before), FormatSeconds(median_after)),
+         .p_worse = statistics::MannWhitneyGreater(blocks_before, blocks_after),
+         .p_better = statistics::MannWhitneyGreater(blocks_after, blocks_before),
+         .may_be_worse = GrewEnough(median_before, median_after),
+         .may_be_better = GrewEnough(median_after, median_before)});
+  }
+
+  struct Share {
+    std::size_t hits = 0;
+    std::size_t of = 0;
+  };
+  void CompareShares(std::string_view what, Share was, Share blocks_before, Share is,
+                     Share blocks_after) {
+    if (was.of == 0 || is.of == 0) return;
+    const auto greater = [](Share a, Share b) {
+      return statistics::ShareGreater(a.hits, a.of, b.hits, b.of);
+    };
+    Add({.figure = FigureOf(what, fmt::format("{} of {}", was.hits, was.of),
+                            fmt::format("{} of {}", is.hits, is.of)),
+         .p_worse = greater(blocks_before, blocks_after),
+         .p_better = greater(blocks_after, blocks_before)});
+  }
+
+ private:
+  // Of a part of the faults nothing is known to be the same.
+  ComparedFigure FigureOf(std::string_view what, std::string before, std::string after) const {
+    return {.what = fmt::format("{}, {}", kind_, what),
+            .before = std::move(before),
+            .after = std::move(after),
+            .change = why_not_.empty() ? Change::kSame : Change::kUntested};
+  }
+  void Add(TestedFigure tested) { figures_.AddUnless(why_not_, std::move(tested)); }
+
+  std::string kind_;
+  std::string why_not_;
+  Figures& figures_;
 };
 
-void CompareShares(const std::string& what, Share was, Share blocks_before, Share is,
-                   Share blocks_after, Figures* figures) {
-  if (was.of == 0 || is.of == 0) return;
-  const auto greater = [](Share a, Share b) {
-    return statistics::ShareGreater(a.hits, a.of, b.hits, b.of);
-  };
-  figures->Add({.figure = {.what = what,
-                           .before = fmt::format("{} of {}", was.hits, was.of),
-                           .after = fmt::format("{} of {}", is.hits, is.of)},
-                .p_worse = greater(blocks_before, blocks_after),
-                .p_better = greater(blocks_after, blocks_before)});
+void CompareKind(const FaultSummary& was, const FaultEvidence& a, const FaultSummary& is,
+                 const FaultEvidence& b, KindComparison kind) {
+  kind.CompareTimes("noticed after", was.noticed_s, a.noticed_s, is.noticed_s, b.noticed_s);
+  kind.CompareTimes("recovered after", was.recovered_s, a.recovered_s, is.recovered_s,
+                    b.recovered_s);
+  kind.CompareShares("noticed late", {was.late, was.noticed_s.size()}, {a.late, a.noticed_s.size()},
+                     {is.late, is.noticed_s.size()}, {b.late, b.noticed_s.size()});
+  kind.CompareShares("without effect", {was.missing, was.planned}, {a.without_effect, a.blocks},
+                     {is.missing, is.planned}, {b.without_effect, b.blocks});
 }
 
-void CompareKind(const FaultSummary& was, const FaultEvidence& a, const FaultSummary& is,
-                 const FaultEvidence& b, Figures* figures) {
-  CompareTimes(is.kind + ", noticed after", was.noticed_s, a.noticed_s, is.noticed_s, b.noticed_s,
-               figures);
-  CompareTimes(is.kind + ", recovered after", was.recovered_s, a.recovered_s, is.recovered_s,
-               b.recovered_s, figures);
-  CompareShares(is.kind + ", noticed late", {was.late, was.noticed_s.size()},
-                {a.late, a.noticed_s.size()}, {is.late, is.noticed_s.size()},
-                {b.late, b.noticed_s.size()}, figures);
-  CompareShares(is.kind + ", without effect", {was.missing, was.planned},
-                {a.without_effect, a.blocks}, {is.missing, is.planned},
-                {b.without_effect, b.blocks}, figures);
+bool ListsAllFaults(const SoakResult& result) {
+  return result.faults_counted <= result.faults.size();
 }
 
 void CompareFaults(const SoakResult& before, const SoakResult& after, Figures* figures) {
@@ -310,11 +345,13 @@ void CompareFaults(const SoakResult& before, const SoakResult& after, Figures* f
       BlockSeconds(std::max({before.planned_s, before.ran_s, after.planned_s, after.ran_s}));
   auto evidence_before = EvidenceOf(before, block_s);
   auto evidence_after = EvidenceOf(after, block_s);
+  const bool all_listed = ListsAllFaults(before) && ListsAllFaults(after);
   const std::vector<FaultSummary> kinds_before = SummariesOf(before.faults);
   for (const FaultSummary& is : SummariesOf(after.faults)) {
     const auto was = std::ranges::find(kinds_before, is.kind, &FaultSummary::kind);
     if (was == kinds_before.end()) continue;
-    CompareKind(*was, evidence_before[is.kind], is, evidence_after[is.kind], figures);
+    CompareKind(*was, evidence_before[is.kind], is, evidence_after[is.kind],
+                {is.kind, all_listed ? "" : kNotAllFaults, figures});
   }
 }
 
@@ -389,7 +426,7 @@ void CompareCounts(const SoakResult& before, const SoakResult& after, Figures* f
 
 void CompareVerdicts(const SoakResult& before, const SoakResult& after, Figures* figures) {
   const auto rank = [](const SoakResult& result) {
-    return result.verdict == SoakVerdict::kFailed ? 1 : 0;
+    return result.verdict == SoakVerdict::kPassed ? 0 : 1;
   };
   const int worse_by = rank(after) - rank(before);
   figures->AddSure("verdict", ToString(before.verdict), ToString(after.verdict),

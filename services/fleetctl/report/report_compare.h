@@ -13,11 +13,13 @@
 //              were noticed late, how many had no effect (Fisher). Those of one kind in one block
 //              come to one value.
 //   slopes     each resource of each process by its longest life: the difference against the
-//              widths of both intervals. Worse only from the size of a leak on.
+//              widths of both intervals. Worse only from the size of a leak on, and only of lives
+//              that are long enough for a leak, and about as long as each other.
 //   verdict    one that no longer passes, samples that are not accounted for, new leaks: not
 //              tested statistically.
 //   untested   shown where they differ, with the reason: values of one event (healing), other
-//              durations, reports without blocks.
+//              durations or lives, reports without blocks. Of faults that are not all listed also
+//              where the listed ones are alike.
 //
 // All tests together call the second of two soaks of equal programs worse once in 200 times at most
 // (Holm at 1 %, both directions), if blocks are independent: measured in the README. Neighbours

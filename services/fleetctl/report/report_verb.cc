@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "services/fleetctl/args/verbs.h"
+#include "services/fleetctl/output/output_file.h"
 #include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/playback/playback.h"
 #include "services/fleetctl/process/exit_codes.h"
@@ -20,18 +21,20 @@ namespace {
 constexpr const char* kReportFooter = R"(
 A report is what fleetctl soak --report FOLDER wrote: the folder, or its report.json. One is printed as a
 summary. Of two, what got worse from the first to the second, with the chance that equal soaks
-differ so much. Evidence is not the value, for one burst of loss delays hundreds, but the block of
-time: a twentieth of the run. If blocks are independent, all tests together call equal programs
-worse at most once in 200. A verdict that fell, beacons not accounted for, and a leak that only the
-second names are worse without a test: a soak names a leak that is none once in 100 times.
-  figures  histograms: mean, median, 99 % of each block, block against block (signed ranks)
-  counts   violations, near misses, reactions that left less than a fifth: of each block, likewise
-  faults   by kind, one value a block: how long until noticed and recovered (Mann-Whitney), how
-           many late or without effect (Fisher)
-  slopes   Theil-Sen, by their 95 % intervals; from 64 KiB, 1 descriptor, 1 thread, 0.05 processors
-           an hour on
-  untested what stems from one event, such as healing; figures and counts of soaks of different
-           durations, of resumed ones, and of reports without blocks: shown, with the reason
+differ so much. The unit of observation is a block of time, a twentieth of the run, not the single
+value: one burst of loss delays hundreds. If blocks are independent, all tests together call equal
+programs worse at most once in 200. A verdict that fell, beacons not accounted for, and a leak that only
+the second names are worse without a test: a soak names a leak that is none once in 100 times.
+  figures   histograms by block: mean, median, 99 % (signed ranks)
+  counts    by block: violations, near misses, reactions that left less
+            than a fifth (signed ranks)
+  faults    by kind, one value a block: noticed and recovered after
+            (Mann-Whitney), late, without effect (Fisher)
+  slopes    Theil-Sen, by 95 % intervals; from 64 KiB, 1 descriptor,
+            1 thread or 0.05 processors an hour on
+  untested  what stems from one event, such as healing; figures and counts
+            of soaks of different durations, of resumed ones, and of
+            reports without blocks: shown, with the reason
 Times must differ by 5 %. Both soaks must have one scenario, one fault file, as many vehicles.
 
 Of an MCAP recording, as fleetctl record and fleetctl run --record-topics write it, the report is a page
@@ -45,7 +48,8 @@ Examples
   fleetctl report last-release nightly --json | jq -r '.figures[] | select(.change=="worse").what'
 
 Exit code: of two, 0 nothing worse, 1 something worse, 2 they could not be compared. Of one, that of
-its soak. Of a recording, 0 written, 1 there is nothing of a fleet in it, 2 it could not be read.
+its soak. Of a recording, 0 written, 1 there is nothing of a fleet in it, 2 it could not be read, or is
+damaged: the page has what is before that. One that was cut off is whole as far as it goes.
 )";
 
 struct ReportOptions {
@@ -68,9 +72,7 @@ int ReportRecording(const ReportOptions& options) {
   PlaybackOptions page{.file = file, .scenario = options.scenario, .report = true};
   page.html_file = options.page_file;
   if (page.html_file.empty()) page.html_file = file.substr(0, file.rfind('.')) + ".html";
-  const int code = RunPlayback(page);
-  if (code == 0) std::printf("%s\n", page.html_file.c_str());
-  return code;
+  return RunPlayback(page);
 }
 
 // Reports on stderr what is wrong with any of them.
@@ -87,6 +89,13 @@ bool ReadAllReports(const ReportOptions& options, std::vector<SoakResult>* resul
   return complete;
 }
 
+// The exit code: `code`, but at least 1 if the text could not be written.
+int Concluded(const std::string& text, int code) {
+  if (PrintAll(text)) return code;
+  std::fprintf(stderr, "cannot write the report to stdout\n");
+  return std::max(code, 1);
+}
+
 int RunReport(const ReportOptions& options) {
   if (std::ranges::any_of(options.reports, IsMcapFile)) return ReportRecording(options);
   std::vector<SoakResult> results;
@@ -94,8 +103,8 @@ int RunReport(const ReportOptions& options) {
   if (results.size() == 1) {
     const SoakResult& only = results.front();
     if (!options.page_file.empty()) WriteSoakPage(only, options.page_file);
-    std::fputs((options.json ? ToJson(only) + "\n" : ForTerminal(ToText(only))).c_str(), stdout);
-    return ExitCode(only.verdict);
+    return Concluded(options.json ? ToJson(only) + "\n" : ForTerminal(ToText(only)),
+                     ExitCode(only.verdict));
   }
   if (!options.page_file.empty()) {
     std::fprintf(stderr, "--page shows one report, and two were named; name one\n");
@@ -110,11 +119,9 @@ int RunReport(const ReportOptions& options) {
     return kCouldNotRun;
   }
   const SoakComparison comparison = Compare(results[0], results[1]);
-  std::fputs(
-      (options.json ? ToJson(comparison) + "\n" : ForTerminal(ToText(comparison, options.all)))
-          .c_str(),
-      stdout);
-  return comparison.AnyWorse() ? 1 : 0;
+  return Concluded(
+      options.json ? ToJson(comparison) + "\n" : ForTerminal(ToText(comparison, options.all)),
+      comparison.AnyWorse() ? 1 : 0);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <exception>
+#include <system_error>
 #include <utility>
 
 #include "services/fleetctl/output/output_file.h"
@@ -24,13 +26,30 @@ fs::path FreePage(const fs::path& folder, std::size_t* number) {
   }
 }
 
+void SayNotWritten(const std::exception& error) {
+  std::fprintf(stderr, "the page of what broke is not written: %s\n", error.what());
+}
+
 bool WritePage(const std::string& path, const RunFrames& frames, const std::string& scene) {
   try {
     WriteFile(path, PageWithRun(frames.RunJson(scene)));
     return true;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "the page of what broke is not written: %s\n", error.what());
+    SayNotWritten(error);
     return false;
+  }
+}
+
+// On a thread of its own. That it cannot be started must not end the soak that found something.
+std::shared_future<bool> StartToWrite(const std::string& path, const RunFrames& frames,
+                                      const std::string& scene) {
+  try {
+    return std::async(std::launch::async, WritePage, path, frames, scene);
+  } catch (const std::system_error& error) {
+    SayNotWritten(error);
+    std::promise<bool> not_written;
+    not_written.set_value(false);
+    return not_written.get_future();
   }
 }
 
@@ -48,7 +67,7 @@ void BlackBox::Write() {
   const fs::path path = FreePage(folder_, &number_);
   const SignalsBlocked blocked;  // signals are the loop's
   pages_.push_back({(folder_.filename() / path.filename()).string(),
-                    std::async(std::launch::async, WritePage, path.string(), frames_, scene_)});
+                    StartToWrite(path.string(), frames_, scene_)});
 }
 
 void BlackBox::Finish() {

@@ -28,12 +28,9 @@ void AddFigures(const RunFigures& figures, Report* report) {
   report->state_hash = HashText(figures.state_hash);
 }
 
-void AddStatus(const VehicleStatus& status, Report* report) {
-  report->beacons_sent += status.beacons.sent;
-  report->beacons_received += status.beacons.accepted;
-  report->deadline_missed += status.qos.deadline_missed;
-  report->liveliness_lost += status.qos.liveliness_lost;
-  report->trust += status.trust;
+// Whether they are of two processes: only the first has counted further, or has said its last.
+bool IsAnotherLife(const VehicleStatus& before, const VehicleStatus& now) {
+  return now.beacons.sent < before.beacons.sent || (before.final && !now.final);
 }
 
 }  // namespace
@@ -74,9 +71,19 @@ void FleetWatch::FoldEvent(const WorldEvent& event) {
   }
 }
 
+void FleetWatch::Sums::Add(const VehicleStatus& status) {
+  beacons_sent += status.beacons.sent;
+  beacons_received += status.beacons.accepted;
+  deadline_missed += status.qos.deadline_missed;
+  liveliness_lost += status.qos.liveliness_lost;
+  trust += status.trust;
+}
+
 // The last samples of a vehicle that left may arrive after the world's event.
 void FleetWatch::FoldStatus(const VehicleStatus& status) {
-  statuses_[status.vehicle] = status;
+  VehicleStatus& newest = statuses_[status.vehicle];
+  if (IsAnotherLife(newest, status)) ended_lives_.Add(newest);
+  newest = status;
   if (open_ && !status.final) vehicles_.insert(status.vehicle);
 }
 
@@ -158,7 +165,13 @@ Report FleetWatch::MakeReport(const std::optional<Overruled>& overruled) const {
       std::ranges::count(events_, EventKind::kContact, &WorldEvent::kind));
   report.halted = VehiclesOf(EventKind::kHalted);
   report.arrived = Arrived();
-  for (const auto& [vehicle, status] : statuses_) AddStatus(status, &report);
+  Sums sums = ended_lives_;
+  for (const auto& [vehicle, status] : statuses_) sums.Add(status);
+  report.beacons_sent = sums.beacons_sent;
+  report.beacons_received = sums.beacons_received;
+  report.deadline_missed = sums.deadline_missed;
+  report.liveliness_lost = sums.liveliness_lost;
+  report.trust = sums.trust;
   if (figures_) AddFigures(*figures_, &report);
   if (overruled) {
     report.verdict = overruled->verdict;
@@ -167,10 +180,10 @@ Report FleetWatch::MakeReport(const std::optional<Overruled>& overruled) const {
   return report;
 }
 
-std::string FleetWatch::DrawPicture() const {
+std::string FleetWatch::DrawPicture(const Report& report) const {
   std::vector<Track> tracks;
   for (const auto& [vehicle, kept] : tracks_) tracks.push_back(kept.track);
-  return DrawRun(scenario_, tracks, events_);
+  return DrawRun(scenario_, tracks, events_, Headline{report.verdict, report.reason});
 }
 
 }  // namespace giveway::fleetctl

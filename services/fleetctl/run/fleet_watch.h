@@ -47,7 +47,8 @@ class FleetWatch {
   bool HasAllFinalStatuses() const;
 
   Report MakeReport(const std::optional<Overruled>& overruled) const;
-  std::string DrawPicture() const;
+  // With the verdict of this report in its header.
+  std::string DrawPicture(const Report& report) const;
   // For the picture, of all vehicles.
   std::size_t KeptPoints() const;
   std::optional<Pose> LastPoint(VehicleId vehicle) const;
@@ -67,6 +68,17 @@ class FleetWatch {
     std::uint32_t since = 0;   // the last one that was kept permanently
   };
 
+  // What vehicles count of themselves. Each starts from 0 again with another process.
+  struct Sums {
+    std::uint64_t beacons_sent = 0;
+    std::uint64_t beacons_received = 0;
+    std::uint64_t deadline_missed = 0;
+    std::uint64_t liveliness_lost = 0;
+    TrustCounters trust;
+
+    void Add(const VehicleStatus& status);
+  };
+
   void FoldTruth(const Truth& truth);
   static void Keep(const Truth& truth, KeptTrack* kept);
   std::vector<VehicleId> VehiclesOf(EventKind kind) const;
@@ -80,6 +92,7 @@ class FleetWatch {
   double time_s_ = 0;
   std::set<VehicleId> vehicles_;
   std::map<VehicleId, VehicleStatus> statuses_;
+  Sums ended_lives_;  // of vehicles that were started again
   std::map<VehicleId, KeptTrack> tracks_;
   std::vector<WorldEvent> events_;
   std::vector<VehicleId> due_kills_;

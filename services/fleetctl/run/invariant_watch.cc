@@ -14,6 +14,7 @@ sim::InvariantLimits LimitsFromOutside(const Scenario& scenario) {
   sim::InvariantLimits limits = sim::LimitsFor(scenario, VehicleObservation::kHeldTicks, true);
   limits.stale_ticks = VehicleObservation::kHeldTicks;
   limits.arriving = scenario.expect.arrived;
+  limits.counts_others = false;  // nor are they reported
   return limits;
 }
 

@@ -41,9 +41,7 @@ constexpr unsigned kDrawing_s = 30;
 bool Print(const RunOptions& options, const Report& report) {
   const std::string text =
       options.json ? ToJson(report) : ForTerminal(ToTable(report, SizeOfTerminal().columns));
-  std::fputs(text.c_str(), stdout);
-  if (!text.ends_with('\n')) std::fputc('\n', stdout);
-  return std::fflush(stdout) == 0;
+  return PrintAll(text.ends_with('\n') ? text : text + '\n');
 }
 
 int RefuseToRun(const RunOptions& options, const char* reason, const std::exception& why) {
@@ -154,6 +152,18 @@ void CarryOut(const RunFaults& faults, const RunOptions& options, const ScratchF
   }
 }
 
+// On a slow disk.
+unsigned SecondsToCopy(const std::vector<std::string>& files) {
+  constexpr std::uintmax_t kBytesPerSecond = 10'000'000;
+  std::uintmax_t bytes = 0;
+  for (const std::string& file : files) {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    if (!error) bytes += size;
+  }
+  return static_cast<unsigned>(bytes / kBytesPerSecond);
+}
+
 int StartAndWatch(const RunOptions& options) {
   const ScenarioOverrides overrides{options.fleet.seed, options.fleet.behaviour,
                                     options.fleet.duration_s};
@@ -197,12 +207,16 @@ int StartAndWatch(const RunOptions& options) {
 
   const bool printed = Print(options, report);
   if (!printed) std::fprintf(stderr, "cannot write the verdict to stdout\n");
-  const bool recorded = session.FinishTopics(BrainRecordings(options.fleet.record_folder, started));
-  const int code = std::max(ExitCode(report.verdict), printed && recorded ? 0 : 1);
-  if (options.picture_file.empty() && options.html_file.empty()) return code;
+  const auto brains = BrainRecordings(options.fleet.record_folder, started);
+  Interrupts::AllowSeconds(kDrawing_s + SecondsToCopy(brains));
+  const bool recorded = session.FinishTopics(brains);
   Interrupts::AllowSeconds(kDrawing_s);
-  return WriteAfterVerdict(code, [&] {
-    if (!options.picture_file.empty()) WriteFile(options.picture_file, session.DrawPicture());
+  const int code = std::max(ExitCode(report.verdict), printed && recorded ? 0 : 1);
+  // Each by itself: one that cannot be written does not cost the other.
+  const int with_picture = WriteAfterVerdict(code, [&] {
+    if (!options.picture_file.empty()) WriteFile(options.picture_file, session.DrawPicture(report));
+  });
+  return WriteAfterVerdict(with_picture, [&] {
     if (!options.html_file.empty()) WriteFile(options.html_file, session.DrawPage());
   });
 }

@@ -1,5 +1,7 @@
 #include "services/fleetctl/run/run_ends.h"
 
+#include <csignal>
+
 namespace giveway::fleetctl {
 
 bool MayEndEarly(const MemberEnd& end, bool open, bool any_vehicle) {
@@ -10,6 +12,14 @@ bool IsGoodEnd(const MemberEnd& end, bool open) {
   const bool is_world = end.member == kTheWorld;
   if (end.planned || (open && !is_world)) return true;
   return !end.how.by_signal && (is_world || end.how.number == 0);
+}
+
+bool HasLeft(const MemberEnd& end) {
+  if (end.planned) return true;
+  if (end.how.by_signal) {
+    return end.member.kind == MemberKind::kDiscoveryServer && end.how.number == SIGTERM;
+  }
+  return end.how.number == 0 || (end.member == kTheWorld && end.how.number == 1);
 }
 
 bool IsToComeBack(const MemberEnd& end, unsigned restarts) {

@@ -15,6 +15,10 @@ bool MayEndEarly(const MemberEnd& end, bool open, bool any_vehicle);
 // world's code is the verdict.
 bool IsGoodEnd(const MemberEnd& end, bool open);
 
+// Whether one that was asked to stop has left in good order. The world's exit code 1 is its
+// verdict; a discovery server is another's program, which the SIGTERM that asks it may end.
+bool HasLeft(const MemberEnd& end);
+
 // Whether a process with this end is restarted if the operator wants that: one that was ended by a
 // signal, or that ended itself to be restarted. Not one that is done, or could not start, and at
 // most kMostRestarts times.

@@ -90,20 +90,6 @@ void RefuseWhatVehiclesLack(const faults::FaultFile& own, const faults::Schedule
   refusals.ThrowIfAny();
 }
 
-std::map<VehicleId, Impairment> HeardWith(const faults::Schedule& schedule,
-                                          std::span<const VehicleId> fleet,
-                                          const Impairment& always) {
-  std::map<VehicleId, Impairment> heard;
-  const auto by_faults = faults::ImpairmentOf(schedule, fleet);
-  if (by_faults.empty()) return heard;
-  for (const VehicleId vehicle : fleet) heard[vehicle] = always;
-  for (const auto& [vehicle, impairment] : by_faults) {
-    std::vector<ImpairmentRule>& rules = heard[vehicle].rules;
-    rules.insert(rules.end(), impairment.rules.begin(), impairment.rules.end());
-  }
-  return heard;
-}
-
 }  // namespace
 
 RunFaults FaultsOfRun(const faults::FaultFile& own, const Scenario& scenario,
@@ -113,7 +99,7 @@ RunFaults FaultsOfRun(const faults::FaultFile& own, const Scenario& scenario,
   const faults::Schedule schedule = ExpandFaults({&own, 1}, course, fleet).schedule;
   RefuseWhatVehiclesLack(own, schedule, scenario);
   RunFaults run;
-  run.heard = HeardWith(schedule, fleet, always);
+  run.heard = faults::ImpairmentWith(schedule, fleet, always);
   for (const faults::Fault& fault : schedule) {
     if (faults::ActorOf(fault.kind) == Actor::kWorld) run.worlds.push_back(fault);
     if (fault.kind != Kind::kKill) continue;

@@ -84,6 +84,7 @@ RunSession::RunSession(const RunOptions& options, const Scenario& scenario, cons
                   : std::optional<TopicRecorder>(std::in_place, ObserverOptions(spec, scenario),
                                                  options.topics_file)),
       processes_(MakeCommands(spec, scenario)),
+      comebacks_(&processes_),
       screen_(!options.json && IsTerminal()) {}
 
 bool RunSession::FinishTopics(const std::vector<std::string>& attachments) {
@@ -126,22 +127,31 @@ std::optional<Overruled> RunSession::Supervise() {
 }
 
 void RunSession::BringBack() {
+  const SteadyTime now = SteadyNow();
   const auto stays_down = [this](const MemberEnd& end) {
     const auto known = brought_back_.find(end.member);
-    return !IsToComeBack(end, known == brought_back_.end() ? 0 : known->second);
+    return comebacks_.Awaits(end.member) ||
+           !IsToComeBack(end, known == brought_back_.end() ? 0 : known->second);
   };
   while (const auto gone = processes_.FirstEndNotAllowed(stays_down)) {
     ShowTrouble(*gone, "died and is started again");
     ++brought_back_[gone->member];
-    processes_.Restart(gone->member);
+    comebacks_.NoteEnd(gone->member, now);
+  }
+  const auto command = [this](MemberId member) { return processes_.CommandOf(member); };
+  for (const FailedStart& failed : comebacks_.Turn(now, command)) {
+    screen_.Finish();
+    std::fprintf(stderr, "%s cannot be started again now: %s; it is tried again later\n",
+                 NameOf(failed.member).c_str(), failed.why.c_str());
   }
 }
 
 std::optional<MemberEnd> RunSession::FirstEarlyEnd() const {
-  const bool any_vehicle =
-      processes_.AnyRunning([](MemberId member) { return member != kTheWorld; });
-  return processes_.FirstEndNotAllowed(
-      [&](const MemberEnd& end) { return MayEndEarly(end, open_, any_vehicle); });
+  const auto is_vehicle = [](MemberId member) { return member != kTheWorld; };
+  const bool any_vehicle = processes_.AnyRunning(is_vehicle) || comebacks_.AwaitsAny(is_vehicle);
+  return processes_.FirstEndNotAllowed([&](const MemberEnd& end) {
+    return comebacks_.Awaits(end.member) || MayEndEarly(end, open_, any_vehicle);
+  });
 }
 
 std::optional<MemberEnd> RunSession::FirstBadEnd() const {
@@ -209,6 +219,10 @@ void RunSession::Turn() {
   for (const VehicleId vehicle : watch_.TakeDueKills()) processes_.Kill(MemberOf(vehicle));
   processes_.Poll();
   ShowErrors();
+  for (const std::string& complaint : processes_.TakeLogComplaints()) {
+    screen_.Finish();
+    std::fprintf(stderr, "%s\n", complaint.c_str());
+  }
   for (const MemberEnd& gone : processes_.TakeEnds()) {
     const bool is_news = open_ && gone.member != kTheWorld;
     if (is_news && !stopping_ && !watch_.HasEnded()) ShowTrouble(gone, "ended");

@@ -9,6 +9,7 @@
 
 #include "services/fleetctl/output/live_screen.h"
 #include "services/fleetctl/process/fleet_processes.h"
+#include "services/fleetctl/process/fleet_restarts.h"
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/run/fleet_watch.h"
 #include "services/fleetctl/run/invariant_watch.h"
@@ -29,7 +30,7 @@ class RunSession {
 
   // Returns when the last process is gone.
   Report Run();
-  std::string DrawPicture() const { return watch_.DrawPicture(); }
+  std::string DrawPicture(const Report& report) const { return watch_.DrawPicture(report); }
   // With the observations of the run embedded, see RunOptions::html_file.
   std::string DrawPage() const;
   // Ends the recording of samples, if there is one. False if it is incomplete.
@@ -38,7 +39,8 @@ class RunSession {
  private:
   // Waits for the run's end. A value if the verdict is not the world's.
   std::optional<Overruled> Supervise();
-  // Restarts processes that died, if the operator asked for it.
+  // Restarts processes that died, if the operator asked for it. One that cannot be started does not
+  // end the others: it is started again later.
   void BringBack();
   // A process ended unexpectedly, unless the event of the run's end is still in transit.
   std::optional<Overruled> JudgeEnd(const MemberEnd& gone);
@@ -71,6 +73,7 @@ class RunSession {
   link::ObserverLink observer_;
   std::optional<TopicRecorder> topics_;
   FleetProcesses processes_;
+  FleetRestarts comebacks_;
   LiveScreen screen_;
   bool stopping_ = false;
   std::size_t errors_shown_ = 0;

@@ -52,7 +52,9 @@ void VehicleObservation::Take(const Beacon& beacon, Tick now) {
 }
 
 void VehicleObservation::Take(const VehicleStatus& status) {
-  if (status_.empty() || status.tick >= status_.back().tick) status_.push_back(status);
+  if (decisions_.empty() || status.tick >= decisions_.back().tick) {
+    decisions_.push_back({status.tick, status.decision});
+  }
 }
 
 bool VehicleObservation::AddBody(Tick tick, sim::Observed* seen) const {
@@ -62,6 +64,7 @@ bool VehicleObservation::AddBody(Tick tick, sim::Observed* seen) const {
   seen->present = truth->present;
   seen->arrived = truth->arrived;
   seen->position_world = truth->world_from_body.position_world;
+  seen->heading_rad = truth->world_from_body.heading_rad;
   seen->forward_m_s = truth->forward_m_s;
   seen->rim_m_s = sim::RimSpeed(drive_, truth->wheels);
   return true;
@@ -78,7 +81,8 @@ Tick VehicleObservation::Answered(const BeaconRecord& last, const BeaconRecord* 
 // from the beacon's, as when it was overtaken.
 Decision VehicleObservation::DecisionOf(const Beacon& beacon) const {
   Decision decision{.mode = beacon.mode, .rule = beacon.rule};
-  const VehicleStatus* const status = AroundOf(status_, beacon.tick, &VehicleStatus::tick).last;
+  const StatedDecision* const status =
+      AroundOf(decisions_, beacon.tick, &StatedDecision::tick).last;
   if (status != nullptr && status->decision.mode == beacon.mode &&
       status->decision.rule == beacon.rule) {
     decision.peer = status->decision.peer;
@@ -104,13 +108,13 @@ bool VehicleObservation::AddDecision(Tick tick, sim::Observed* seen) const {
 void VehicleObservation::ForgetBefore(Tick tick) {
   DropBefore(&truths_, tick, &Truth::tick);
   DropBefore(&beacons_, tick, &BeaconRecord::at);
-  DropBefore(&status_, tick, &VehicleStatus::tick);
+  DropBefore(&decisions_, tick, &StatedDecision::tick);
 }
 
 void VehicleObservation::Forget() {
   truths_.clear();
   beacons_.clear();
-  status_.clear();
+  decisions_.clear();
 }
 
 void VehicleObservation::Return() {

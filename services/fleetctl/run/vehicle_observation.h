@@ -54,6 +54,11 @@ class VehicleObservation {
     Tick answers = kNoTick;  // the scan
     bool follows = false;    // directly on the one before it
   };
+  // All that is kept of a status, which is large.
+  struct StatedDecision {
+    Tick tick = kNoTick;
+    Decision decision;
+  };
 
   bool IsTakenAway() const { return !truths_.empty() && !truths_.back().present; }
   bool AddBody(Tick tick, sim::Observed* seen) const;
@@ -66,9 +71,9 @@ class VehicleObservation {
   DriveGeometry drive_;
   bool lives_ = true;
   std::uint32_t gone_ticks_ = 0;
-  std::deque<Truth> truths_;          // ascending by tick
-  std::deque<BeaconRecord> beacons_;  // ascending by tick of publication
-  std::deque<VehicleStatus> status_;  // ascending by tick
+  std::deque<Truth> truths_;              // ascending by tick
+  std::deque<BeaconRecord> beacons_;      // ascending by tick of publication
+  std::deque<StatedDecision> decisions_;  // by its statuses, ascending by tick
 };
 
 }  // namespace giveway::fleetctl

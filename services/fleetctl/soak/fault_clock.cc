@@ -22,7 +22,12 @@ FaultClock::FaultClock(std::span<const faults::Fault> schedule,
 
 std::span<const FaultEdge> FaultClock::TakeDue(double now_s) {
   const std::size_t first = next_;
-  while (next_ < edges_.size() && edges_[next_].at_s <= now_s) ++next_;
+  while (next_ < edges_.size() && edges_[next_].at_s <= now_s) {
+    const FaultEdge& edge = edges_[next_];
+    const auto started = std::span(edges_).subspan(first, next_ - first);
+    if (!edge.begins && std::ranges::count(started, edge.fault, &FaultEdge::fault) > 0) break;
+    ++next_;
+  }
   return std::span(edges_).subspan(first, next_ - first);
 }
 
@@ -42,6 +47,13 @@ std::vector<std::size_t> FaultClock::UnderWay() const {
     }
   }
   return {under_way.begin(), under_way.end()};
+}
+
+void WorldTime::Follow(std::span<const Truth> truths, SteadyTime now) {
+  if (truths.empty()) return;
+  if (!newest_ || truths.back().time_s > newest_->time_s) moved_at_ = now;
+  newest_ = truths.back();
+  received_at_ = now;
 }
 
 }  // namespace giveway::fleetctl

@@ -10,8 +10,12 @@
 
 #include "services/fleetctl/soak/soak_seen.h"
 #include "services/fleetctl/soak/soak_watch.h"
+#include "services/types/scenario.h"
 
 namespace giveway::fleetctl {
+
+// Ids of the vehicles of a soak: the scenario's in a closed fleet, the first ones in an open one.
+std::vector<VehicleId> SoakFleet(const Scenario& scenario, std::uint32_t newcomers);
 
 class FleetCourse {
  public:

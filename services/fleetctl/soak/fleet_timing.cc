@@ -28,6 +28,13 @@ BlockSummary SummaryOf(const Histogram& histogram) {
 
 }  // namespace
 
+Nanoseconds MostBeaconAge(const Scenario& scenario) {
+  Nanoseconds limit{0};
+  for (const auto& vehicle : scenario.vehicles) limit = std::max(limit, vehicle.beacon_age_limit);
+  for (const auto& spawn : scenario.spawns) limit = std::max(limit, spawn.beacon_age_limit);
+  return limit + scenario.tick_period;
+}
+
 void FleetTiming::Fold(const VehicleStatus& status, double time_s) {
   EndBlocksBefore(time_s);
   DriveFigures& before = before_[status.vehicle];
@@ -62,16 +69,25 @@ std::vector<BlockSummary> FleetTiming::BlocksOf(std::size_t figure) const {
   return blocks;
 }
 
+// At fast ticks some values are the newest in no report. The largest of them is known all the same.
 void FleetTiming::TakeNewest(const VehicleStatus& status, std::size_t figure, double time_s) {
   const FigureSummary& now = status.timing.figures[figure];
-  const std::uint32_t seen = before_[status.vehicle].figures[figure].count;
-  if (now.count <= seen) return;
+  const FigureSummary& before = before_[status.vehicle].figures[figure];
+  if (now.count <= before.count) return;
   constexpr auto kKept = static_cast<std::uint32_t>(FigureSummary::kNewest);
-  const std::uint32_t reported = std::min(now.count - seen, kKept);
-  missed_ += now.count - seen - reported;
-  for (std::uint32_t n = now.count - reported; n != now.count; ++n) {
-    Take(status.vehicle, static_cast<DriveFigure>(figure), now.newest[n % kKept], time_s);
+  const std::uint32_t reported = std::min(now.count - before.count, kKept);
+  std::uint32_t missed = now.count - before.count - reported;
+  std::uint32_t largest = before.max;
+  const auto take = [&](std::uint32_t value) {
+    largest = std::max(largest, value);
+    Take(status.vehicle, static_cast<DriveFigure>(figure), value, time_s);
+  };
+  for (std::uint32_t n = now.count - reported; n != now.count; ++n) take(now.newest[n % kKept]);
+  if (missed > 0 && now.max > largest) {
+    take(now.max);
+    --missed;
   }
+  missed_ += missed;
 }
 
 void FleetTiming::Take(VehicleId vehicle, DriveFigure figure, std::uint32_t value, double time_s) {

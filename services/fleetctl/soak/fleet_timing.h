@@ -12,9 +12,14 @@
 #include "services/fleetctl/soak/soak_result.h"
 #include "services/types/figures/drive_figures.h"
 #include "services/types/fleet_facts.h"
+#include "services/types/scenario.h"
 #include "services/types/time.h"
 
 namespace giveway::fleetctl {
+
+// The oldest beacon that any decision may use: the highest limit of any vehicle, plus the one tick
+// by which every decision lags.
+Nanoseconds MostBeaconAge(const Scenario& scenario);
 
 // A vehicle decided on beacons that were too old.
 struct StaleDecisions {
@@ -40,7 +45,8 @@ class FleetTiming {
   std::uint64_t BudgetSpent() const { return budget_spent_; }
   double BlockLength_s() const { return block_s_; }
   const std::vector<std::uint64_t>& BudgetSpentByBlock() const { return spent_by_block_.Counts(); }
-  // Values that no report has: reports were lost, or a process died before its next one.
+  // Values that no report has: reports were lost, ticks are fast, or a process died before its next
+  // one.
   std::uint64_t Missed() const { return missed_; }
   const std::map<VehicleId, StaleDecisions>& Stale() const { return stale_; }
 

@@ -13,7 +13,20 @@ bool ByTime(const NearMiss& a, const NearMiss& b) { return a.time_s < b.time_s; 
 
 }  // namespace
 
-void NearMisses::Fold(std::span<const Truth> truths) {
+std::map<VehicleId, double> RadiiOf(const Scenario& scenario, const std::vector<VehicleId>& fleet) {
+  double largest_m = 0;
+  for (const VehicleOptions& spawn : scenario.spawns) {
+    largest_m = std::max(largest_m, spawn.profile.body_radius_m);
+  }
+  std::map<VehicleId, double> radius_m;
+  for (const VehicleId vehicle : fleet) radius_m[vehicle] = largest_m;
+  for (const VehicleOptions& vehicle : scenario.vehicles) {
+    radius_m[vehicle.id] = vehicle.profile.body_radius_m;
+  }
+  return radius_m;
+}
+
+void NearMisses::Fold(std::span<const Truth> truths, double lag_s) {
   for (const Truth& truth : truths) {
     if (!truth.present) {
       newest_.erase(truth.vehicle);
@@ -21,11 +34,11 @@ void NearMisses::Fold(std::span<const Truth> truths) {
     }
     const Body body{truth, radius_m_[truth.vehicle]};
     newest_[truth.vehicle] = body;
-    Observe(body);
+    Observe(body, lag_s);
   }
 }
 
-void NearMisses::Observe(const Body& body) {
+void NearMisses::Observe(const Body& body, double lag_s) {
   const Truth& truth = body.truth;
   const Vec2 here = truth.world_from_body.position_world;
   for (const auto& [other, theirs] : newest_) {
@@ -33,7 +46,7 @@ void NearMisses::Observe(const Body& body) {
       continue;
     const Vec2 there = theirs.truth.world_from_body.position_world;
     const double distance_m = Norm(here - there) - body.radius_m - theirs.radius_m;
-    const NearMiss now{truth.time_s, truth.vehicle, other, here.x, here.y, distance_m};
+    const NearMiss now{truth.time_s + lag_s, truth.vehicle, other, here.x, here.y, distance_m};
     if (!nearest_ || distance_m < nearest_->distance_m) nearest_ = now;
     const auto pair = std::minmax(truth.vehicle, other);
     const auto under_way = under_way_.find(pair);

@@ -12,6 +12,7 @@
 
 #include "services/fleetctl/soak/soak_result.h"
 #include "services/types/fleet_facts.h"
+#include "services/types/scenario.h"
 
 namespace giveway::fleetctl {
 
@@ -25,7 +26,8 @@ class NearMisses {
 
   explicit NearMisses(std::map<VehicleId, double> radius_m) : radius_m_(std::move(radius_m)) {}
 
-  void Fold(std::span<const Truth> truths);
+  // Their times are given `lag_s` later: by so much the world's own is behind.
+  void Fold(std::span<const Truth> truths, double lag_s = 0);
   // Encounters that are over or in progress, by time.
   std::vector<NearMiss> Narrowest() const;
   std::uint64_t Count() const { return count_; }
@@ -38,7 +40,7 @@ class NearMisses {
     double radius_m = 0;
   };
 
-  void Observe(const Body& body);
+  void Observe(const Body& body, double lag_s);
   void Keep(const NearMiss& miss);
 
   std::map<VehicleId, double> radius_m_;
@@ -48,5 +50,9 @@ class NearMisses {
   std::optional<NearMiss> nearest_;
   std::uint64_t count_ = 0;
 };
+
+// The body radius of each vehicle, metres. In an open fleet a vehicle's place is not known in
+// advance: the largest body counts for all.
+std::map<VehicleId, double> RadiiOf(const Scenario& scenario, const std::vector<VehicleId>& fleet);
 
 }  // namespace giveway::fleetctl

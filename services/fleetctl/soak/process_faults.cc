@@ -237,7 +237,7 @@ std::vector<std::size_t> ProcessFaults::KillersOf(MemberId member,
                                                   const faults::Schedule& schedule) const {
   std::vector<std::size_t> killers;
   const auto away = away_.find(member);
-  if (away == away_.end()) return killers;
+  if (away == away_.end() || away->second->kind == Kind::kQosMismatch) return killers;
   for (std::size_t i = 0; i < schedule.size(); ++i) {
     if (&schedule[i] == away->second) killers.push_back(i);
   }
@@ -367,12 +367,12 @@ void ProcessFaults::EndOn(const faults::Fault& fault, MemberId member) {
 }
 
 void ProcessFaults::Turn(SteadyTime now, double time_s) {
-  time_s_ = time_s;
+  if (!start_signal_ && time_s > 0) start_signal_ = now - FromSeconds(time_s);
   // Gone as planned. One that ends again, in a mismatch too, is restarted like any other.
   for (std::set<MemberId>* const gone : {&to_start_, &returning_}) {
     std::erase_if(*gone, [this](MemberId member) {
       if (!processes_->EndOf(member)) return false;
-      processes_->Restart(CommandNow(member));
+      StartAgain(member);
       return true;
     });
   }
@@ -380,6 +380,15 @@ void ProcessFaults::Turn(SteadyTime now, double time_s) {
   for (auto& [fault, churn] : churns_) TurnChurn(now, &churn);
   if (claims_.AreAwaited()) claims_.Turn(now, WorldAnswers());
   orders_.Turn(now);
+}
+
+// On a full disk it has no log.
+void ProcessFaults::StartAgain(MemberId member) {
+  try {
+    processes_->Restart(CommandNow(member));
+  } catch (const StartError& error) {
+    failed_starts_.push_back({member, error.what()});
+  }
 }
 
 bool ProcessFaults::WorldAnswers() const {
@@ -394,12 +403,10 @@ MemberCommand ProcessFaults::CommandNow(MemberId member) const {
   if (away != away_.end() && away->second->kind == Kind::kQosMismatch) {
     SetFlag(&command.child.words, "--qos", ResolveQosFile(away->second->parameters.qos));
   }
-  DropFlag(&command.child.words, "--impair");
-  const std::string impair = tools_.impairment_since(VehicleId{member.number}, time_s_);
-  if (impair.empty()) return command;
-  SetFlag(&command.child.words, "--impair", impair);
-  // Else they would count from when it has joined, which takes seconds.
-  SetFlag(&command.child.words, "--impair-since", fmt::format("{:.6f}", Seconds(SteadyNow())));
+  // Else the times of its rules would count from when it has joined again.
+  if (start_signal_ && std::ranges::count(command.child.words, "--impair") > 0) {
+    SetFlag(&command.child.words, "--impair-since", fmt::format("{:.6f}", Seconds(*start_signal_)));
+  }
   return command;
 }
 
@@ -447,9 +454,13 @@ void ProcessFaults::TurnChurn(SteadyTime now, Churn* churn) {
                                      [](const MemberCommand& of) { return of.member.kind; });
   if (any == tools_.commands.end()) return;
   const std::uint32_t id = kFirstChurnId + churned_++;
-  churn->process = StartBeside(any->member, id, fmt::format("passer-by {}", id));
-  churn->until = now + kChurnLife;
   --churn->left;
+  try {
+    churn->process = StartBeside(any->member, id, fmt::format("passer-by {}", id));
+    churn->until = now + kChurnLife;
+  } catch (const StartError&) {
+    churn->process.reset();  // one fewer is counted
+  }
 }
 
 // The hard limit is never changed.

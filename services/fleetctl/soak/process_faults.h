@@ -7,7 +7,6 @@
 #include <sys/types.h>
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -19,6 +18,7 @@
 #include "services/faults/fault.h"
 #include "services/fleetctl/process/child_process.h"
 #include "services/fleetctl/process/fleet_processes.h"
+#include "services/fleetctl/process/fleet_restarts.h"
 #include "services/fleetctl/soak/host_faults/duty_cycle.h"
 #include "services/fleetctl/soak/host_faults/private_shm.h"
 #include "services/fleetctl/soak/host_faults/qos_orders.h"
@@ -42,9 +42,6 @@ struct FaultTools {
   std::map<MemberId, SteppableClock> clocks;
   std::string attacker;       // the program of the intruder; empty: no such faults
   PrivateShm* shm = nullptr;  // null: no shared memory faults. Outlives the faults
-  // The --impair of a vehicle that is started so many seconds after the start signal, with times
-  // that count from then. Empty: nothing is impaired any more.
-  std::function<std::string(VehicleId, double)> impairment_since;
 };
 
 // Sets a flag of a command line to a value, or adds it.
@@ -58,18 +55,21 @@ class ProcessFaults {
   // Null if this kind of fault can be injected into this target, else the reason.
   static const char* WhyNot(const faults::Fault& fault, bool has_discovery_servers);
 
-  // Ignores faults of other actors. `fault` outlives its end. Throws StartError if a process cannot
-  // be started.
+  // Ignores faults of other actors. `fault` outlives its end. Throws StartError if a process that
+  // it needs cannot be started.
   void Begin(const faults::Fault& fault);
   void End(const faults::Fault& fault);
   // Continues active faults: stops and resumes slow processes, polls its own children. Call often.
-  // `time_s` since the start signal.
+  // `time_s` since the start signal; 0 before it.
   void Turn(SteadyTime now, double time_s);
 
   // True while its process is gone as planned.
   bool IsAway(MemberId member) const {
     return away_.contains(member) || returning_.contains(member);
   }
+  // The members that could not be started again as planned since the last call, and why: they wait
+  // for the caller to do it.
+  std::vector<FailedStart> TakeFailedStarts() { return std::exchange(failed_starts_, {}); }
   // The orders to take another profile set that ended since the last call.
   std::vector<QosOrders::Ended> TakeEndedOrders() { return orders_.TakeEnded(); }
   // True if the fault concerns this very process.
@@ -85,7 +85,8 @@ class ProcessFaults {
   std::string WhyNothingMet(const faults::Fault& fault) const;
   // Those that are over, and whose effect can no longer come once this one starts.
   std::vector<const faults::Fault*> CutShortBy(const faults::Fault& fault);
-  // The faults, by index in the schedule, that caused the member's planned end.
+  // The faults, by index in the schedule, whose effect the member's planned end is. Of a mismatch
+  // it is only a means to another set.
   std::vector<std::size_t> KillersOf(MemberId member, const faults::Schedule& schedule) const;
   // Killed permanently.
   bool IsAwayForGood(MemberId member) const;
@@ -121,6 +122,7 @@ class ProcessFaults {
   std::unique_ptr<ChildProcess> StartBeside(MemberId member, std::uint32_t id,
                                             const std::string& name) const;
   void BeginOrders(const faults::Fault& fault);
+  void StartAgain(MemberId member);
   void TurnSlow(MemberId member, SteadyTime now, Slow* slow);
   void TurnChurn(SteadyTime now, Churn* churn);
   void Lower(MemberId member, int resource, std::uint64_t most);
@@ -141,7 +143,8 @@ class ProcessFaults {
   SecondClaims claims_;
   UnreadLogs unread_;
   std::uint32_t churned_ = 0;
-  double time_s_ = 0;
+  std::vector<FailedStart> failed_starts_;
+  std::optional<SteadyTime> start_signal_;
 };
 
 }  // namespace giveway::fleetctl

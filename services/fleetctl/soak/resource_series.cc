@@ -155,9 +155,22 @@ void ResourceSeries::EndLife(const std::string& process) {
   const auto life = living_.find(process);
   if (life == living_.end()) return;
   std::vector<ResourceSlope> slopes = SlopesOf(process, life->second);
-  if (slopes.empty()) ++lives_too_short_;
+  if (IsTooShort(life->second)) ++lives_too_short_;
   living_.erase(life);
   Keep(std::move(slopes));
+}
+
+bool ResourceSeries::IsTooShort(const Life& life) {
+  return std::ranges::none_of(life.series, [](const BoundedSeries& series) {
+    const std::vector<statistics::Sample>& points = series.Points();
+    return !points.empty() && points.back().time_s - points.front().time_s >= kLeastLeakSpan_s;
+  });
+}
+
+std::uint64_t ResourceSeries::LivesTooShort() const {
+  const auto living = std::ranges::count_if(
+      living_, [](const auto& entry) { return entry.first != kFleet && IsTooShort(entry.second); });
+  return lives_too_short_ + static_cast<std::uint64_t>(living);
 }
 
 void ResourceSeries::Keep(std::vector<ResourceSlope> slopes) {

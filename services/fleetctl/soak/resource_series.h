@@ -67,8 +67,9 @@ class ResourceSeries {
   std::vector<ResourceSlope> Slopes() const;
   // Of ended lives alone, with MarkLeaks. Costs a millisecond.
   std::vector<ResourceSlope> EndedSlopes() const;
-  // Lives that ended too early to be judged.
-  std::uint64_t LivesTooShort() const { return lives_too_short_; }
+  // Lives of processes of which nothing is judged up to now: they ended, or started, too soon for
+  // kLeastLeakSpan_s.
+  std::uint64_t LivesTooShort() const;
   // The supervisor's processor time in relation to that of all processes, since the first sample.
   // nullopt before there are two.
   std::optional<double> SupervisorShare() const;
@@ -84,6 +85,7 @@ class ResourceSeries {
   };
   // Of ended lives leaks are kept in preference.
   void Keep(std::vector<ResourceSlope> slopes);
+  static bool IsTooShort(const Life& life);
   std::vector<ResourceSlope> SlopesOf(const std::string& process, const Life& life) const;
   Life& LifeOf(const std::string& process, double time_s);
 
@@ -91,7 +93,7 @@ class ResourceSeries {
   std::map<std::string, Life> living_;
   std::map<std::string, std::uint32_t> next_life_;
   std::vector<ResourceSlope> ended_;
-  std::uint64_t lives_too_short_ = 0;
+  std::uint64_t lives_too_short_ = 0;  // of those that ended
   std::size_t rows_dropped_ = 0;
   double fleet_cpu_s_ = 0;  // of all processes, between their samples
   std::optional<double> supervisor_first_cpu_s_;

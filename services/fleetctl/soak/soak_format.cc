@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "services/fleetctl/soak/resource_series.h"
+
 namespace giveway::fleetctl {
 namespace {
 
@@ -46,10 +48,11 @@ std::string FormatFaults(const SoakResult& result) {
   std::string text = fmt::format(
       "{} of {} seen by their effect, {} skipped",
       std::max<std::uint64_t>(result.faults_observed, static_cast<std::uint64_t>(observed)),
-      std::max<std::uint64_t>(result.faults_counted, result.faults.size()),
-      result.skipped_faults.size());
+      std::max<std::uint64_t>(result.faults_counted, result.faults.size()), result.skipped_counted);
   const auto idle = std::ranges::count_if(result.faults, HadNothingToActOn);
   if (idle > 0) text += fmt::format(", {} had nothing to act on", idle);
+  const auto never = std::ranges::count_if(result.faults, NeverStarted);
+  if (never > 0) text += fmt::format(", {} not started", never);
   if (result.faults_counted > result.faults.size()) {
     text += fmt::format("; the first {} by kind:", result.faults.size());
   }
@@ -73,8 +76,16 @@ std::string SlopeSummary(const SoakResult& result) {
     leaks += fmt::format("{}{} {} {}/h", leaks.empty() ? "" : "; ", row.process, ToString(row.kind),
                          FormatResource(row.kind, row.slope.per_hour));
   }
-  if (count == 0) return fmt::format("no leak in {} slopes", result.slopes.size());
-  return fmt::format("{} of {} slopes are leaks: {}", count, result.slopes.size(), leaks);
+  const auto judged = std::ranges::count_if(result.slopes, [](const ResourceSlope& row) {
+    return row.slope.spans_s >= kLeastLeakSpan_s;
+  });
+  std::string text = count == 0
+                         ? fmt::format("no leak in {} slopes", judged)
+                         : fmt::format("{} of {} slopes are leaks: {}", count, judged, leaks);
+  if (result.lives_too_short > 0) {
+    text += fmt::format("; {} lives too short to judge", result.lives_too_short);
+  }
+  return text;
 }
 
 // A report may be read from a file, and a link there could lead anywhere.
@@ -148,7 +159,7 @@ std::vector<FaultSummary> SummariesOf(const std::vector<SoakFault>& faults) {
     FaultSummary& summary = by_kind[fault.kind];
     ++summary.planned;
     if (fault.observed) ++summary.observed;
-    if (!fault.observed && !HadNothingToActOn(fault)) ++summary.missing;
+    if (LacksEffect(fault)) ++summary.missing;
     if (fault.noticed_after_s) summary.noticed_s.push_back(*fault.noticed_after_s);
     if (fault.recovered_after_s) summary.recovered_s.push_back(*fault.recovered_after_s);
     if (fault.noticed_after_s && fault.promised_s && *fault.noticed_after_s > *fault.promised_s) {
@@ -199,16 +210,17 @@ std::vector<SummaryRow> SummaryOf(const SoakResult& result) {
       {"violations", FormatViolations(result)},
       {"near misses", fmt::format("{}", result.near_misses_counted)},
       {"narrowest margin", FormatMargin(result)},
-      {"slopes", SlopeSummary(result) +
-                     (result.lives_too_short == 0
-                          ? ""
-                          : fmt::format(", {} lives too short to judge", result.lives_too_short))},
+      {"slopes", SlopeSummary(result)},
       {"accounting", FormatAccounting(result)},
       {"restarts",
        fmt::format("{} planned, {} not", result.restarts_planned, result.restarts_unplanned)},
       {"machine's pauses",
        fmt::format("{}, {:.2f} % of the time, the longest {:.3f} s", result.pauses.count,
                    result.pauses.share * 100, result.pauses.longest_s)}};
+  if (result.timing_values_lost > 0) {
+    rows.push_back({"values lost", fmt::format("{} of the figures, which no received report has",
+                                               result.timing_values_lost)});
+  }
   for (const KeptRings& kept : result.kept_rings) {
     rows.push_back({"rings kept", fmt::format("at {:.1f} s, by {} of {} vehicles", kept.time_s,
                                               kept.kept, result.vehicles)});

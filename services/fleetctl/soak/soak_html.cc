@@ -75,6 +75,12 @@ std::vector<const Item*> Ordered(const std::vector<Item>& items, Key&& key) {
   return ordered;
 }
 
+std::string EffectText(const SoakFault& fault) {
+  if (NeverStarted(fault)) return fault.observed_how.empty() ? "not started" : fault.observed_how;
+  if (LacksEffect(fault)) return "NO";
+  return (fault.observed ? "yes: " : "no: ") + fault.observed_how;
+}
+
 std::string EachFault(const SoakResult& result) {
   HtmlTable table({"at", "for", "kind", "target", "<effect seen", "noticed after", "promised",
                    "recovered after", "name"});
@@ -83,16 +89,11 @@ std::string EachFault(const SoakResult& result) {
     const bool late =
         fault.noticed_after_s && fault.promised_s && *fault.noticed_after_s > *fault.promised_s;
     table.Row();
-    table.Cell(fmt::format("{:.1f} s", fault.at_s));
+    table.Cell(fmt::format("{:.1f} s", StartOf(fault)));
     table.Cell(fault.for_s > 0 ? fmt::format("{:.1f} s", fault.for_s) : "-");
     table.Cell(fault.kind);
     table.Cell(fault.target);
-    const bool missing = !fault.observed && !HadNothingToActOn(fault);
-    table.Cell((fault.observed ? "yes: "
-                : missing      ? "NO"
-                               : "no: ") +
-                   fault.observed_how,
-               missing ? "text bad" : "text");
+    table.Cell(EffectText(fault), LacksEffect(fault) ? "text bad" : "text");
     table.Cell(FormatSeconds(fault.noticed_after_s), late ? "bad" : "");
     table.Cell(FormatSeconds(fault.promised_s));
     table.Cell(FormatSeconds(fault.recovered_after_s));

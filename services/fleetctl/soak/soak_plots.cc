@@ -120,7 +120,7 @@ SoakPlot FaultPlot(const SoakResult& result) {
   for (const SoakFault& fault : result.faults) {
     const int row = rows.Of(fault.kind);
     if (row == 0) continue;
-    (fault.observed ? seen : unseen) += fmt::format("{} {} {}\n", fault.at_s / axis.unit_s, row,
+    (fault.observed ? seen : unseen) += fmt::format("{} {} {}\n", StartOf(fault) / axis.unit_s, row,
                                                     std::max(fault.for_s, least_s) / axis.unit_s);
   }
   for (const SoakViolation& violation : result.violations) {

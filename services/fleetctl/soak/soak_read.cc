@@ -1,6 +1,7 @@
 // Converts the message of idl/soak.proto to a soak's result; reports all mismatches at once.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -218,6 +219,9 @@ void ReadEvents(const schema::SoakReport& message, SoakResult* result, Complaint
     result->faults.push_back(FaultFrom(fault));
   }
   result->skipped_faults = {message.skipped_faults().begin(), message.skipped_faults().end()};
+  result->skipped_counted =
+      std::max<std::uint64_t>(CountOf(message.skipped_counted(), "skipped_counted", complaints),
+                              result->skipped_faults.size());
   for (const schema::SoakViolation& violation : message.violations()) {
     result->violations.push_back({violation.time_s(), VehicleId{violation.vehicle()},
                                   VehicleId{violation.other()}, violation.invariant(),

@@ -44,14 +44,15 @@ struct SoakVersions {
 struct SoakFault {
   std::string rule;  // that planned it, and its index among the rule's faults, from 0
   std::uint32_t nth = 0;
-  double at_s = 0;
+  double at_s = 0;        // as planned; of the world's faults by its own time
   double for_s = 0;       // 0: instantaneous
   std::string kind;       // "pause"; see services/faults/fault.h
   std::string target;     // "vehicle 3", "world"
   bool observed = false;  // by its effect, not by the order given
-  // "waitpid: signal 9"; of one not observed, why it had nothing to act on; empty: it had
+  // "waitpid: signal 9"; of one not observed, why it had nothing to act on, or what kept it from
+  // being judged; empty: nothing did
   std::string observed_how;
-  std::optional<double> observed_s;
+  std::optional<double> observed_s;       // when it started, by the time of violations
   std::optional<double> noticed_after_s;  // by peers, from its start
   std::optional<double> promised_s;       // to be noticed within
   std::optional<double>
@@ -59,6 +60,8 @@ struct SoakFault {
 };
 // "burst#3", as violations name a fault.
 std::string NameOf(const SoakFault& fault);
+// By the clock of violations and modes: the world's time lags by as long as it was gone.
+inline double StartOf(const SoakFault& fault) { return fault.observed_s.value_or(fault.at_s); }
 
 struct SoakViolation {
   double time_s = 0;
@@ -114,9 +117,15 @@ struct SoakHistogram {
   std::vector<HistogramBudget> budgets;
   std::vector<BlockSummary> blocks;  // from the first on; empty: not kept by block
 };
+// It was planned, and did not come: the soak ended before.
+inline bool NeverStarted(const SoakFault& fault) { return !fault.observed && !fault.observed_s; }
 // It was not observed, and its effect is not missing.
 inline bool HadNothingToActOn(const SoakFault& fault) {
-  return !fault.observed && !fault.observed_how.empty();
+  return !fault.observed && !NeverStarted(fault) && !fault.observed_how.empty();
+}
+// It was carried out, and nothing says why it was not observed.
+inline bool LacksEffect(const SoakFault& fault) {
+  return !fault.observed && !NeverStarted(fault) && fault.observed_how.empty();
 }
 // All budgets are kept, or nothing was measured.
 bool WithinBudgets(const SoakHistogram& measured);
@@ -209,12 +218,14 @@ struct SoakResult {
   SoakVersions versions;
   std::string command;  // that reproduces it
 
-  std::vector<SoakFault> faults;            // by at_s
-  std::uint64_t faults_counted = 0;         // including those not listed, and
-  std::uint64_t faults_observed = 0;        // of them, those seen by their effect
-  std::vector<std::string> skipped_faults;  // that the host cannot inject, with the reason
-  std::vector<SoakViolation> violations;    // by time_s
-  std::uint64_t violations_counted = 0;     // including those not listed
+  std::vector<SoakFault> faults;      // by at_s
+  std::uint64_t faults_counted = 0;   // including those not listed, and
+  std::uint64_t faults_observed = 0;  // of them, those seen by their effect
+  // What was left out, a line for each kind and reason; and the number of faults.
+  std::vector<std::string> skipped_faults;
+  std::uint64_t skipped_counted = 0;
+  std::vector<SoakViolation> violations;  // by time_s
+  std::uint64_t violations_counted = 0;   // including those not listed
   // Ticks in which every invariant was judged, and those of which too little was seen for that.
   std::uint64_t ticks_judged = 0;
   std::uint64_t ticks_unseen = 0;
@@ -238,7 +249,7 @@ struct SoakResult {
   std::vector<KeptRings> kept_rings;
   std::vector<double>
       resumed_at_s;  // the supervisor had died, and another fleet continued the soak
-  std::uint32_t restarts_planned = 0;
+  std::uint32_t restarts_planned = 0;          // that were carried out
   std::uint32_t restarts_unplanned = 0;        // a process ended without a fault that explains it
   std::optional<double> supervisor_cpu_share;  // of the fleet's processor time
 };

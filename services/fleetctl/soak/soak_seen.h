@@ -27,8 +27,13 @@ struct FaultCourse {
   std::string effect;               // the observed effect; empty: none yet
   std::string met_nothing;  // it was active, and why there was nothing to act on; empty: there was
   std::string failure;      // of the last attempt to inject or undo it; empty: none
+  bool not_undone = false;  // that attempt was to undo it
+  bool cut_off = false;     // by the end of the soak
   // By the first peer, for each mechanism that reported it.
   std::array<std::optional<SteadyTime>, kMechanisms> noticed;
+  // The machine's longest pause while each mechanism had to report it; absent: not known, or not
+  // expected.
+  std::array<std::optional<Nanoseconds>, kMechanisms> paused;
   std::optional<SteadyTime> recovered;  // after its end all that it affected recovered
 };
 
@@ -53,6 +58,10 @@ struct SoakSeen {
   std::vector<FaultCourse> courses;  // of each fault of the schedule
   std::vector<UnplannedEnd> ends;    // the first ones
   std::uint32_t restarts = 0;        // after all of those
+  // From then until the end the world's time stood, and was not waited for any more.
+  std::optional<double> world_stood_from_s;
+  // It reached its end, and its last fault had not: nothing was seen of how the fleet heals.
+  bool faults_outlasted_it = false;
   // When each live vehicle had recovered after the last fault's end, seconds; absent: never.
   std::map<VehicleId, std::optional<double>> healing;
   // For each live vehicle: the longest time without a status of it since the last fault ended.

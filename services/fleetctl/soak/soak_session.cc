@@ -10,6 +10,7 @@
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/process/process_resources.h"
 #include "services/fleetctl/process/run_key.h"
+#include "services/fleetctl/run/run_ends.h"
 #include "services/runtime/identity.h"
 #include "services/runtime/process.h"
 
@@ -25,7 +26,7 @@ constexpr Nanoseconds kTurn = milliseconds(50);
 constexpr Nanoseconds kUntilAllDrive = seconds(60);
 constexpr Nanoseconds kSampleEvery = seconds(1);
 constexpr Nanoseconds kProgressEvery = seconds(10);
-constexpr Nanoseconds kWorldGone = seconds(60);  // its time stands: it is not waited for any more
+constexpr double kWorldBack_s = 10;  // at most, from the end of a fault that stopped the world
 constexpr Nanoseconds kLeaveGrace = seconds(2);
 constexpr Nanoseconds kTermGrace = seconds(3);
 constexpr std::uint64_t kSharedMemoryEvery = 10;  // samples: it requires reading every map
@@ -42,6 +43,8 @@ link::LinkOptions ObserverOf(const FleetSpec& spec, const Scenario& scenario,
       .area = scenario.area,
       .fleet_size = static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size()),
       .discovery_servers = spec.options.discovery_servers,
+      .requests_status_once = true,
+      .lets_packets_gather = true,
       .leaves_out_shared_memory = breaks_shared_memory};
 }
 
@@ -64,38 +67,12 @@ bool IsOfWorld(const faults::Fault& fault) {
 
 }  // namespace
 
-std::map<VehicleId, double> RadiiOf(const Scenario& scenario, const std::vector<VehicleId>& fleet) {
-  double largest_m = 0;
-  for (const VehicleOptions& spawn : scenario.spawns) {
-    largest_m = std::max(largest_m, spawn.profile.body_radius_m);
-  }
-  std::map<VehicleId, double> radius_m;
-  for (const VehicleId vehicle : fleet) radius_m[vehicle] = largest_m;
-  for (const VehicleOptions& vehicle : scenario.vehicles) {
-    radius_m[vehicle.id] = vehicle.profile.body_radius_m;
-  }
-  return radius_m;
-}
-
-Nanoseconds MostBeaconAge(const Scenario& scenario) {
-  Nanoseconds limit{0};
-  for (const auto& vehicle : scenario.vehicles) limit = std::max(limit, vehicle.beacon_age_limit);
-  for (const auto& spawn : scenario.spawns) limit = std::max(limit, spawn.beacon_age_limit);
-  return limit + scenario.tick_period;
-}
-
-std::vector<VehicleId> SoakFleet(const Scenario& scenario, std::uint32_t newcomers) {
-  std::vector<VehicleId> fleet;
-  for (const VehicleOptions& vehicle : scenario.vehicles) fleet.push_back(vehicle.id);
-  for (std::uint32_t id = 1; id <= newcomers; ++id) fleet.push_back(VehicleId{id});
-  return fleet;
-}
-
 SoakSession::SoakSession(const FleetSpec& spec, const Scenario& scenario,
                          const faults::Schedule& schedule, const SoakPhases& phases,
-                         FaultTools tools)
+                         const Limits& limits, FaultTools tools)
     : schedule_(schedule),
       phases_(phases),
+      limits_(limits),
       fleet_(SoakFleet(scenario, NewcomerCount(spec.options, scenario))),
       watch_(fleet_, schedule),
       invariants_(scenario),
@@ -104,6 +81,7 @@ SoakSession::SoakSession(const FleetSpec& spec, const Scenario& scenario,
       processes_(tools.commands),
       attackers_({tools.attacker, tools.domain, tools.interface}),
       faults_(std::move(tools), &processes_),
+      restarts_(&processes_),
       clock_(schedule, std::not_fn(IsOfWorld)),
       world_clock_(schedule, IsOfWorld),
       resources_(phases.faults_from_s),
@@ -132,17 +110,19 @@ SoakSeen SoakSession::Run(const Saved& save) {
     while (Interrupts::Count() == 0 && !IsOver(SteadyNow())) {
       Turn();
       CarryOut(clock_.TakeDue(watch_.TimeSeconds(SteadyNow())));
-      CarryOut(world_clock_.TakeDue(WorldSeconds()));
+      CarryOut(world_clock_.TakeDue(world_time_.Now_s()));
     }
   }
   seen_.interrupted = Interrupts::Count() > 0;
+  if (seen_.started && !seen_.interrupted) NoteWhatDidNotEnd(SteadyNow());
   seen_.lasted_s = watch_.TimeSeconds(SteadyNow());
-  CarryOut(clock_.EndAll(seen_.lasted_s));
-  CarryOut(world_clock_.EndAll(WorldSeconds()));
+  CutOff(clock_.EndAll(seen_.lasted_s));
+  CutOff(world_clock_.EndAll(world_time_.Now_s()));
   Stop();
   Interrupts::AllowSeconds(kConcluding_s);  // its count is not asked any more
   invariants_.Finish(false);
   NoteBroken();
+  NotePauses(SteadyTime::max());
   if (black_box_) black_box_->Finish();
   Gather(&seen_);
   seen_.slopes = resources_.Slopes();
@@ -206,10 +186,11 @@ void SoakSession::Turn() {
   const SteadyTime now = SteadyNow();
   pauses_.Note(turned_, now, kTurn);
   turned_ = now;
+  NotePauses(now);  // before a fault that is settled is closed
   Drain();
   processes_.Poll();
-  NoteEnds();  // before any is started again
-  faults_.Turn(now, watch_.TimeSeconds(now));
+  NoteEnds();                                                  // before any is started again
+  if (!stopping_) faults_.Turn(now, watch_.TimeSeconds(now));  // it starts processes again
   attackers_.Turn();
   for (const VehicleId vehicle : fleet_) {
     watch_.SetAway(vehicle, faults_.IsAway(MemberOf(vehicle)));
@@ -226,12 +207,12 @@ void SoakSession::Turn() {
 
 void SoakSession::Drain() {
   const link::Observed observed = observer_.Take();
-  FollowWorld(observed, SteadyNow());
+  world_time_.Follow(observed.truths, SteadyNow());
   watch_.Fold(observed, SteadyNow());
   invariants_.Fold(observed);
   NoteBroken();
   const std::uint64_t near_before = near_.Count();
-  near_.Fold(observed.truths);
+  near_.Fold(observed.truths, WorldLag_s());
   near_by_block_.Note(watch_.TimeSeconds(SteadyNow()), near_.Count() - near_before);
   if (black_box_) black_box_->Fold(observed, SteadyNow());
   for (const VehicleStatus& status : observed.statuses) {
@@ -243,25 +224,26 @@ void SoakSession::Drain() {
   }
 }
 
-void SoakSession::FollowWorld(const link::Observed& observed, SteadyTime now) {
-  if (observed.truths.empty()) return;
-  const Truth& newest = observed.truths.back();
-  if (!any_truth_ || newest.time_s > any_truth_->time_s) world_moved_ = now;
-  any_truth_ = newest;
-  truth_at_ = now;
-}
-
-double SoakSession::WorldSeconds() const { return any_truth_ ? any_truth_->time_s : 0; }
-
 // Its time falls behind by as long as it is gone, and the faults it carries out with it.
 bool SoakSession::IsOver(SteadyTime now) const {
   if (watch_.TimeSeconds(now) < phases_.end_s) return false;
-  return WorldSeconds() >= phases_.end_s || now - world_moved_ > kWorldGone;
+  return world_time_.Now_s() >= phases_.end_s || world_time_.IsGone(now);
 }
 
+// Those of a world that does not come back are not waited for: the fleet has to heal all the same.
 bool SoakSession::AreFaultsOver(SteadyTime now) const {
-  return watch_.TimeSeconds(now) >= clock_.LastEnd_s() &&
-         WorldSeconds() >= world_clock_.LastEnd_s();
+  const double since_last_s = watch_.TimeSeconds(now) - clock_.LastEnd_s();
+  if (since_last_s < 0) return false;
+  return world_time_.Now_s() >= world_clock_.LastEnd_s() ||
+         (world_time_.IsGone(now) && since_last_s >= kWorldBack_s);
+}
+
+// Of a run that was not interrupted, what keeps it from showing that its fleet heals.
+void SoakSession::NoteWhatDidNotEnd(SteadyTime now) {
+  if (world_time_.IsGone(now)) {
+    seen_.world_stood_from_s = watch_.TimeSeconds(world_time_.MovedAt());
+  }
+  seen_.faults_outlasted_it = !AreFaultsOver(now);
 }
 
 // At once: ticks of another world start again, and its time lags.
@@ -270,6 +252,12 @@ void SoakSession::NoteBroken() {
   for (std::size_t i = broken_.size(); i < first.size(); ++i) {
     broken_.push_back({TimeOfTick(first[i].tick), first[i]});
   }
+}
+
+void SoakSession::NotePauses(SteadyTime now) {
+  watch_.NotePauses(limits_, now, [this](SteadyTime from, SteadyTime to) {
+    return stalls_.LongestPause(from, to);
+  });
 }
 
 // What is known to be broken during the run: invariants, decisions on stale beacons, processes that
@@ -297,8 +285,7 @@ void SoakSession::CarryOut(std::span<const FaultEdge> edges) {
         watch_.NoteMetNothing(static_cast<std::size_t>(cut - schedule_.data()),
                               "another fault started before the world had answered");
       }
-      faults_.Begin(fault);
-      attackers_.Begin(fault);
+      Begin(edge.fault);
     } else {
       const std::string nothing = faults_.WhyNothingMet(fault);
       if (!nothing.empty()) watch_.NoteMetNothing(edge.fault, nothing);
@@ -309,6 +296,21 @@ void SoakSession::CarryOut(std::span<const FaultEdge> edges) {
       attackers_.End(fault);
       watch_.NoteEnd(edge.fault, SteadyNow());
     }
+  }
+}
+
+void SoakSession::CutOff(std::span<const FaultEdge> edges) {
+  CarryOut(edges);
+  for (const FaultEdge& edge : edges) watch_.NoteCutOff(edge.fault);
+}
+
+// One for which no process can be started has no effect, and the soak continues.
+void SoakSession::Begin(std::size_t fault) {
+  try {
+    faults_.Begin(schedule_[fault]);
+    attackers_.Begin(schedule_[fault]);
+  } catch (const StartError& error) {
+    watch_.NoteFailure(fault, error.what());
   }
 }
 
@@ -339,8 +341,17 @@ void SoakSession::NoteOrder(std::size_t fault, const QosOrders::Ended& order) {
     }
     return;
   }
-  watch_.NoteFailure(fault, fmt::format("the order{} ended with {}: {}", back ? " back" : "",
-                                        Describe(order.how), order.last_line));
+  std::string why = fmt::format("the order{} ended with {}: {}", back ? " back" : "",
+                                Describe(order.how), order.last_line);
+  // A process that is gone has no set, and comes back with its own.
+  const faults::Target& target = schedule_[fault].target;
+  const bool gone =
+      target.what == Target::What::kVehicle && faults_.IsAway(MemberOf(target.vehicle));
+  if (back) {
+    watch_.NoteNotUndone(fault, std::move(why), gone);
+  } else {
+    watch_.NoteFailure(fault, std::move(why));
+  }
 }
 
 void SoakSession::HearLines() {
@@ -348,45 +359,62 @@ void SoakSession::HearLines() {
     if (member.kind != MemberKind::kVehicle) continue;
     if (const auto word = LogEventOf(line)) watch_.Fold(VehicleId{member.number}, *word);
   }
+  for (const std::string& complaint : processes_.TakeLogComplaints()) {
+    std::fprintf(stderr, "%s\n", complaint.c_str());
+  }
 }
 
 // A process that was killed as planned is not reported. One that ended otherwise is restarted, as
 // by a container's restart policy; its end counts in the verdict.
 void SoakSession::NoteEnds() {
   for (const MemberEnd& end : processes_.TakeEnds()) {
-    if (stopping_) continue;
-    resources_.EndLife(ProcessName(end.member));
+    if (!stopping_) resources_.EndLife(ProcessName(end.member));
     if (end.planned) {
       for (const std::size_t i : faults_.KillersOf(end.member, schedule_)) {
         watch_.NoteEffect(i, "the process ended: " + Describe(end.how));
       }
       continue;
     }
-    const auto aimed = [&](const faults::Fault& fault) {
-      return faults_.IsAimedAt(fault, end.member);
-    };
-    if (!watch_.MayEndProcess(aimed, SteadyNow())) {
-      ++seen_.restarts;
-      if (seen_.ends.size() < kMostEnds) {
-        const auto& said = processes_.LastLines(end.member);
-        seen_.ends.push_back({watch_.TimeSeconds(SteadyNow()),
-                              end.member,
-                              Describe(end.how),
-                              {said.begin(), said.end()}});
-      }
-    }
-    restart_at_[end.member] = backoff_.StartOf(end.member, SteadyNow());
+    if (!MayEnd(end)) NoteUnplannedEnd(end);
+    if (!stopping_) restarts_.NoteEnd(end.member, SteadyNow());
   }
+}
+
+// Of a fleet that never drove nothing is judged, and a second interrupt kills those that leave.
+bool SoakSession::MayEnd(const MemberEnd& end) const {
+  if (stopping_ && (HasLeft(end) || !seen_.started || Interrupts::Count() > 1)) return true;
+  const auto aimed = [&](const faults::Fault& fault) {
+    return faults_.IsAimedAt(fault, end.member);
+  };
+  return watch_.MayEndProcess(aimed, SteadyNow());
+}
+
+void SoakSession::NoteUnplannedEnd(const MemberEnd& end) {
+  const auto& said = processes_.LastLines(end.member);
+  NoteUnplannedEnd(end.member, (stopping_ ? "asked to stop, " : "") + Describe(end.how),
+                   {said.begin(), said.end()});
+}
+
+void SoakSession::NoteUnplannedEnd(MemberId member, std::string how,
+                                   std::vector<std::string> last_lines) {
+  ++seen_.restarts;
+  if (seen_.ends.size() == kMostEnds) return;
+  seen_.ends.push_back(
+      {watch_.TimeSeconds(SteadyNow()), member, std::move(how), std::move(last_lines)});
+}
+
+void SoakSession::NoteFailedStart(const FailedStart& start) {
+  NoteUnplannedEnd(start.member, "could not be started again: " + start.why, {});
 }
 
 void SoakSession::RestartThoseThatEnded(SteadyTime now) {
   if (stopping_) return;
-  std::erase_if(restart_at_, [&](const auto& restart) {
-    const auto& [member, at] = restart;
-    if (now < at) return false;
-    if (!processes_.IsRunning(member)) processes_.Restart(faults_.CommandNow(member));
-    return true;
-  });
+  for (const FailedStart& start : faults_.TakeFailedStarts()) {
+    NoteFailedStart(start);
+    restarts_.NoteEnd(start.member, now);
+  }
+  const auto command = [this](MemberId member) { return faults_.CommandNow(member); };
+  for (const FailedStart& start : restarts_.Turn(now, command)) NoteFailedStart(start);
 }
 
 void SoakSession::Sample(SteadyTime now) {
@@ -410,11 +438,16 @@ void SoakSession::Sample(SteadyTime now) {
   }
 }
 
+double SoakSession::WorldLag_s() const {
+  return watch_.TimeSeconds(world_time_.ReceivedAt()) - world_time_.Now_s();
+}
+
 double SoakSession::TimeOfTick(Tick tick) const {
-  if (!any_truth_) return 0;
+  const std::optional<Truth>& newest = world_time_.Newest();
+  if (!newest) return 0;
   const double ticks =
-      static_cast<double>(Number(tick)) - static_cast<double>(Number(any_truth_->tick));
-  return std::max(0.0, watch_.TimeSeconds(truth_at_) + ticks * tick_period_s_);
+      static_cast<double>(Number(tick)) - static_cast<double>(Number(newest->tick));
+  return std::max(0.0, watch_.TimeSeconds(world_time_.ReceivedAt()) + ticks * tick_period_s_);
 }
 
 void SoakSession::FollowCourse(SteadyTime now) {
@@ -439,12 +472,21 @@ void SoakSession::ShowProgress(SteadyTime now) {
                invariants_.Judged().Broken(), names.empty() ? "" : "  not driving:", names.c_str());
 }
 
-// The world first, so that it announces the end and the vehicles leave gracefully.
+// The world first, so that it announces the end. Vehicles are asked one by one: each has a second
+// to leave, and all of them at once would take longer on a small machine.
 void SoakSession::Stop() {
+  processes_.Poll();
+  NoteEnds();  // those that ended before were not asked to
   stopping_ = true;
   processes_.AskToStop(kTheWorld);
   const auto turn = [this] { Turn(); };
-  if (!processes_.WaitUntilEnded(kLeaveGrace, turn)) processes_.EndAll(kTermGrace, turn);
+  if (processes_.WaitUntilEnded(kLeaveGrace, turn)) return;
+  for (const VehicleId vehicle : fleet_) {
+    if (Interrupts::Count() > 1) break;
+    processes_.AskToStop(MemberOf(vehicle));
+    Turn();
+  }
+  processes_.EndAll(kTermGrace, turn);
 }
 
 }  // namespace giveway::fleetctl

@@ -13,7 +13,7 @@
 #include "services/accounting/fleet_accounting.h"
 #include "services/faults/fault.h"
 #include "services/fleetctl/process/fleet_processes.h"
-#include "services/fleetctl/process/restart_backoff.h"
+#include "services/fleetctl/process/fleet_restarts.h"
 #include "services/fleetctl/run/black_box.h"
 #include "services/fleetctl/run/invariant_watch.h"
 #include "services/fleetctl/soak/fault_clock.h"
@@ -37,9 +37,10 @@ namespace giveway::fleetctl {
 
 class SoakSession {
  public:
-  // `scenario` and `schedule` outlive the session. Throws LinkError, StartError.
+  // `limits`: the promises of the profile set. `scenario` and `schedule` outlive the session.
+  // Throws LinkError, StartError.
   SoakSession(const FleetSpec& spec, const Scenario& scenario, const faults::Schedule& schedule,
-              const SoakPhases& phases, FaultTools tools);
+              const SoakPhases& phases, const Limits& limits, FaultTools tools);
 
   // The observations so far, without the slopes of current lives, which take time. Returns how long
   // until it is called again.
@@ -48,16 +49,14 @@ class SoakSession {
   // Returns when the last process is gone.
   SoakSeen Run(const Saved& save = {});
 
-  // The longest pause of the machine in a time span of the run.
-  const StallMonitor& Stalls() const { return stalls_; }
-
  private:
   double TimeOfTick(Tick tick) const;  // since the start signal, by this clock
-  double WorldSeconds() const;         // since the start signal, by the world's
+  double WorldLag_s() const;           // of the world's time behind this clock
   bool AreFaultsOver(SteadyTime now) const;
   bool IsOver(SteadyTime now) const;
-  void FollowWorld(const link::Observed& observed, SteadyTime now);
+  void NoteWhatDidNotEnd(SteadyTime now);
   void NoteBroken();
+  void NotePauses(SteadyTime now);
   void Gather(SoakSeen* seen) const;
   void SaveIfDue(SteadyTime now);
   bool WaitUntilAllDrive();
@@ -65,11 +64,17 @@ class SoakSession {
   void Drain();
   std::uint64_t BrokenSoFar() const;
   void KeepRings(SteadyTime now);
+  void Begin(std::size_t fault);
+  void CutOff(std::span<const FaultEdge> edges);
   void CarryOut(std::span<const FaultEdge> edges);
   void NoteProcessEffects();
   void NoteOrder(std::size_t fault, const QosOrders::Ended& order);
   void HearLines();
   void NoteEnds();
+  bool MayEnd(const MemberEnd& end) const;
+  void NoteUnplannedEnd(const MemberEnd& end);
+  void NoteUnplannedEnd(MemberId member, std::string how, std::vector<std::string> last_lines);
+  void NoteFailedStart(const FailedStart& start);
   void RestartThoseThatEnded(SteadyTime now);
   void Sample(SteadyTime now);
   void FollowCourse(SteadyTime now);
@@ -78,6 +83,7 @@ class SoakSession {
 
   const faults::Schedule& schedule_;
   SoakPhases phases_;
+  const Limits limits_;  // the promises of the profile set
   std::vector<VehicleId> fleet_;
   SoakWatch watch_;
   InvariantWatch invariants_;
@@ -86,8 +92,7 @@ class SoakSession {
   FleetProcesses processes_;
   Attackers attackers_;
   ProcessFaults faults_;
-  RestartBackoff backoff_;
-  std::map<MemberId, SteadyTime> restart_at_;  // of those that ended by themselves
+  FleetRestarts restarts_;  // of those that ended by themselves
   FaultClock clock_;
   FaultClock world_clock_;  // of the faults that the world carries out, by its own time
   ResourceSeries resources_;
@@ -102,9 +107,7 @@ class SoakSession {
   std::optional<BlackBox> black_box_;  // like rings_: absent without them
   std::uint64_t broken_before_ = 0;    // when rings were last kept
   double tick_period_s_;
-  std::optional<Truth> any_truth_;
-  SteadyTime truth_at_{0};
-  SteadyTime world_moved_{0};  // when its time last advanced
+  WorldTime world_time_;
   std::vector<BrokenInvariant> broken_;
   SoakSeen seen_;
   std::uint64_t samples_ = 0;
@@ -115,16 +118,5 @@ class SoakSession {
   SteadyTime next_save_{0};
   bool stopping_ = false;
 };
-
-// Ids of the vehicles of a soak: the scenario's in a closed fleet, the first ones in an open one.
-std::vector<VehicleId> SoakFleet(const Scenario& scenario, std::uint32_t newcomers);
-
-// The body radius of each vehicle, metres. In an open fleet a vehicle's place is not known in
-// advance: the largest body counts for all.
-std::map<VehicleId, double> RadiiOf(const Scenario& scenario, const std::vector<VehicleId>& fleet);
-
-// The oldest beacon that any decision may use: the highest limit of any vehicle, plus the one tick
-// by which every decision lags.
-Nanoseconds MostBeaconAge(const Scenario& scenario);
 
 }  // namespace giveway::fleetctl

@@ -20,6 +20,9 @@ using std::chrono::milliseconds;
 
 constexpr double kHealP99_s = 2;
 constexpr Nanoseconds kLingers = std::chrono::seconds(10);
+// A fault that started later than this, and had less than this part of its time, is not judged.
+constexpr double kLate_s = 0.1;
+constexpr double kMostOfIt = 0.9;
 // Of a step of the brain, which normally takes a thousandth of that: a fifth of the usual tick.
 constexpr double kMostStep_us = 10'000;
 // Added to the promised time: writing and reading the log line.
@@ -83,6 +86,7 @@ class SoakEvaluation {
     CheckFaults();
     CheckInvariants();
     CheckEnds();
+    CheckWorld();
     CheckHealing();
     CheckSlopes();
     CheckSlowLoops();
@@ -114,11 +118,20 @@ class SoakEvaluation {
 
   void AddViolation(double time_s, VehicleId vehicle, std::string invariant, std::string words,
                     VehicleId other = kNoVehicle) {
+    Add({time_s, vehicle, other, std::move(invariant), std::move(words),
+         FaultNameBehind(vehicle, time_s)});
+  }
+
+  // Of the fault itself.
+  void AddViolation(std::size_t fault, std::string invariant, std::string words) {
+    Add({StartOf(result_.faults[fault]), from_.schedule[fault].target.vehicle, kNoVehicle,
+         std::move(invariant), std::move(words), NameOf(result_.faults[fault])});
+  }
+
+  void Add(SoakViolation violation) {
     ++result_.violations_counted;
     if (result_.violations.size() == kMostListed) return;
-    std::string fault = FaultNameBehind(vehicle, time_s);
-    result_.violations.push_back(
-        {time_s, vehicle, other, std::move(invariant), std::move(words), std::move(fault)});
+    result_.violations.push_back(std::move(violation));
   }
 
   std::vector<Expected> Promised(std::size_t fault) const {
@@ -167,8 +180,10 @@ class SoakEvaluation {
       EvaluateFault(i, result_.faults[i]);
     }
     std::uint32_t planned = 0;
-    for (const faults::Fault& fault : from_.schedule) {
-      planned += fault.kind == Kind::kRestart || fault.kind == Kind::kQosMismatch ? 1 : 0;
+    for (std::size_t i = 0; i < from_.schedule.size(); ++i) {
+      const Kind kind = from_.schedule[i].kind;
+      const bool restarts = kind == Kind::kRestart || kind == Kind::kQosMismatch;
+      planned += restarts && from_.seen.courses[i].began ? 1 : 0;
     }
     result_.restarts_planned = planned;
     result_.restarts_unplanned = from_.seen.restarts;
@@ -186,6 +201,7 @@ class SoakEvaluation {
                     .observed = !course.effect.empty(),
                     .observed_how = course.effect};
     if (!entry.observed) entry.observed_how = course.met_nothing;
+    if (course.began) entry.observed_s = Seconds(*course.began - from_.seen.started_at);
     // One that took effect and was not undone.
     if (entry.observed && !course.failure.empty()) entry.observed_how += "; " + course.failure;
     // Other faults may also make peers hear less of the target, but not each time: nothing is
@@ -206,35 +222,48 @@ class SoakEvaluation {
     return entry;
   }
 
-  // A fault that was cut off by the end of the run is not reported.
+  // The soak ended before it, or the operator ended the soak while its effects might still come, or
+  // it was carried out so late that too little of it was left.
+  bool WasCutOff(const faults::Fault& fault, const FaultCourse& course) const {
+    if (!course.ended) return from_.seen.interrupted;
+    if (course.cut_off) return true;
+    const double late_s = Seconds(*course.began - from_.seen.started_at) - fault.at_s;
+    const double lasted_s = Seconds(*course.ended - *course.began);
+    if (late_s > kLate_s && lasted_s < kMostOfIt * fault.for_s) return true;
+    const SteadyTime end = from_.seen.started_at + FromSeconds(from_.seen.lasted_s);
+    return from_.seen.interrupted && *course.ended + kLingers > end;
+  }
+
   void EvaluateFault(std::size_t number, const SoakFault& entry) {
-    const faults::Fault& fault = from_.schedule[number];
     const FaultCourse& course = from_.seen.courses[number];
-    if (!course.began) return;
+    if (!course.began || WasCutOff(from_.schedule[number], course)) return;
     if (!entry.observed && course.met_nothing.empty()) {
-      AddViolation(fault.at_s, fault.target.vehicle, "effect",
+      AddViolation(number, "effect",
                    fmt::format("{} was ordered, and no effect of it was seen{}{}", NameOf(entry),
                                course.failure.empty() ? "" : ": ", course.failure));
     }
-    const bool lasted = !course.ended || fault.for_s <= 0 ||
-                        Seconds(*course.ended - *course.began) >= fault.for_s * 0.9;
-    if (!lasted) return;
+    if (course.not_undone) {
+      AddViolation(number, "not_undone",
+                   fmt::format("{} was not taken back: {}", NameOf(entry), course.failure));
+    }
     for (const Expected& expected : promised_[number]) {
-      EvaluateDetection(fault, course, expected, NameOf(entry));
+      EvaluateDetection(number, expected);
     }
   }
 
-  void EvaluateDetection(const faults::Fault& fault, const FaultCourse& course,
-                         const Expected& expected, const std::string& name) {
+  void EvaluateDetection(std::size_t number, const Expected& expected) {
+    const FaultCourse& course = from_.seen.courses[number];
     const auto& noticed = course.noticed[static_cast<std::size_t>(expected.mechanism)];
+    const std::string name = NameOf(result_.faults[number]);
     const std::string_view mechanism = fleetctl::Name(expected.mechanism);
-    const SteadyTime latest = *course.began + expected.within + kNoticing;
+    const Nanoseconds paused =
+        course.paused[static_cast<std::size_t>(expected.mechanism)].value_or(Nanoseconds{0});
     if (!noticed) {
-      AddViolation(fault.at_s, fault.target.vehicle, "detection",
+      AddViolation(number, "detection",
                    fmt::format("no peer noticed {} by its {}", name, mechanism));
-    } else if (*noticed > latest + from_.longest_pause(*course.began, latest)) {
+    } else if (*noticed > LatestReport(*course.began, expected) + paused) {
       AddViolation(
-          fault.at_s, fault.target.vehicle, "detection",
+          number, "detection",
           fmt::format("{} was noticed by its {} after {:.3f} s, promised are {:.3f} s", name,
                       mechanism, Seconds(*noticed - *course.began), Seconds(expected.within)));
     }
@@ -263,7 +292,26 @@ class SoakEvaluation {
         from_.seen.restarts - std::min<std::uint64_t>(from_.seen.restarts, from_.seen.ends.size());
   }
 
+  // The faults that a world carries out wait for its time.
+  void CheckWorld() {
+    const std::optional<double>& stood_from_s = from_.seen.world_stood_from_s;
+    if (!stood_from_s) return;
+    std::size_t missing = 0;
+    for (std::size_t i = 0; i < from_.schedule.size(); ++i) {
+      const bool of_world = faults::ActorOf(from_.schedule[i].kind) == faults::Actor::kWorld;
+      missing += of_world && !from_.seen.courses[i].began ? 1 : 0;
+    }
+    AddViolation(*stood_from_s, kNoVehicle, "world_stood",
+                 fmt::format("the world's time stood from {:.1f} s to the end; {} of the faults "
+                             "that it carries out did not come",
+                             *stood_from_s, missing));
+  }
+
   void CheckHealing() {
+    if (from_.seen.faults_outlasted_it) {
+      AddViolation(from_.seen.lasted_s, kNoVehicle, "healing",
+                   "was not seen: the soak ended before its last fault");
+    }
     SoakHistogram healing{.name = "healing",
                           .budgets = {{0.99, FromSeconds(kHealP99_s).count()},
                                       {1.0, FromSeconds(kHealWithin_s).count()}}};
@@ -303,7 +351,7 @@ class SoakEvaluation {
       AddViolation(
           from_.seen.lasted_s, kNoVehicle, "leak",
           fmt::format("{} life {}: {} grows by {:.0f} an hour (95 %: {:.0f} to {:.0f})",
-                      slope.process, slope.life, ToString(slope.kind), slope.slope.per_hour,
+                      slope.process, slope.life + 1, ToString(slope.kind), slope.slope.per_hour,
                       slope.slope.low_per_hour, slope.slope.high_per_hour));
     }
   }
@@ -355,6 +403,12 @@ class SoakEvaluation {
                    fmt::format("{} beacons of vehicle {} are not accounted for at vehicle {}",
                                pair.differing, Number(pair.writer), Number(pair.reader)),
                    pair.writer);
+    }
+    if (result_.accounting.size() > kMostListed) {
+      std::stable_partition(result_.accounting.begin(), result_.accounting.end(),
+                            [](const AccountingRow& row) {
+                              return row.Difference() != 0;  // those that must be listed
+                            });
     }
     for (const VehicleId reader : from_.seen.accounting.WithoutAccount()) {
       AddViolation(from_.seen.lasted_s, reader, "accounting",
@@ -410,6 +464,10 @@ std::vector<Expected> ExpectedOf(const faults::Fault& fault, const Limits& limit
     }
   }
   return expected;
+}
+
+SteadyTime LatestReport(SteadyTime began, const Expected& expected) {
+  return began + expected.within + kNoticing;
 }
 
 void EvaluateSoak(const SoakEvidence& evidence, SoakResult* result) {

@@ -2,7 +2,6 @@
 // and after which fault, and the verdict. Starts and measures nothing. Pure.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "services/faults/fault.h"
@@ -16,9 +15,7 @@ namespace giveway::fleetctl {
 struct SoakEvidence {
   const SoakSeen& seen;
   const faults::Schedule& schedule;
-  Limits limits;  // the promises of the profile set
-  // The longest pause of the machine between two times of the run.
-  std::function<Nanoseconds(SteadyTime, SteadyTime)> longest_pause;
+  Limits limits;                 // the promises of the profile set
   bool by_processes = true;      // else nothing is known of events of the middleware
   std::vector<VehicleId> fleet;  // who may notice that a peer falls silent; empty: any
 };
@@ -31,6 +28,8 @@ struct Expected {
   Nanoseconds within{0};
 };
 std::vector<Expected> ExpectedOf(const faults::Fault& fault, const Limits& limits);
+// When at the latest, without a pause of the machine, it must have been reported.
+SteadyTime LatestReport(SteadyTime began, const Expected& expected);
 
 // Fills in faults, violations, near misses, histograms, slopes, pauses, verdict and reasons;
 // `result` already has what was run.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/fleetctl/soak/soak_verdict.h"
+
 namespace giveway::fleetctl {
 namespace {
 
@@ -17,6 +19,8 @@ constexpr Nanoseconds kAfterwards = seconds(10);
 constexpr Nanoseconds kGivenUp = seconds(120);
 // A status has the counts up to its publication; it may arrive a little after the fault's end.
 constexpr Nanoseconds kStatusUnderway = seconds(2);
+// A pause is known once it is over.
+constexpr Nanoseconds kPauseKnown = seconds(1);
 
 // Packets that no library sends. Those without an RTPS header belong to floods, and sequence
 // numbers jump for other reasons too.
@@ -69,6 +73,40 @@ bool ShowsInCounters(Kind kind) {
       break;
   }
   return false;
+}
+
+// How likely it acts on a packet that its receiver is given; nothing of a cut, which takes them
+// all, and of what no receiver carries out.
+std::optional<double> ShareOf(const faults::Fault& fault) {
+  const double share = fault.parameters.probability.value_or(0);
+  switch (fault.kind) {
+    case Kind::kLoss:
+    case Kind::kReorder:
+    case Kind::kDuplicate:
+    case Kind::kCorrupt:
+      return share;
+    case Kind::kBurst:  // each takes several
+      return share / fault.parameters.count.value_or(1);
+    case Kind::kDelay:
+    case Kind::kRate:
+      return 1;
+    default:
+      return std::nullopt;
+  }
+}
+
+// Why a fault that acted on no packet may have met too few: another one kept them away, or it was
+// short and acts on few. Empty where that is no chance.
+std::string WhyNoneMet(const faults::Fault& fault, const ImpairmentCounters& before,
+                       const ImpairmentCounters& after) {
+  constexpr double kNoChance = 1e-4;  // a soak has hundreds of faults
+  const std::optional<double> share = ShareOf(fault);
+  if (!share || fault.target.what != Target::What::kVehicle) return "";
+  const std::uint64_t had = before.packets - before.dropped_blackout;
+  const std::uint64_t has = after.packets - after.dropped_blackout;
+  const std::uint64_t met = has < had ? has : has - had;  // a new life counts from 0
+  if (std::pow(1 - *share, static_cast<double>(met)) < kNoChance) return "";
+  return fmt::format("it met {} packets, and acts on a share of {:g}", met, *share);
 }
 
 // As the world names it in its events.
@@ -176,7 +214,11 @@ void SoakWatch::SeekEffect(std::size_t i, const VehicleStatus& status) {
   const std::uint64_t is = CountOf(fault.kind, status);
   if (is < was) {  // a new life of it
     before->second = status;
-  } else if (is > was) {
+  } else if (is == was) {
+    std::string why;
+    if (courses_[i].ended) why = WhyNoneMet(fault, before->second.impaired, status.impaired);
+    if (!why.empty()) NoteMetNothing(i, std::move(why));
+  } else {
     courses_[i].effect = fmt::format("vehicle {} counted {} {}", Number(status.vehicle), is - was,
                                      CounterOf(fault.kind));
   }
@@ -219,6 +261,18 @@ void SoakWatch::NoteEffect(std::size_t fault, std::string effect) {
 void SoakWatch::AddToEffect(std::size_t fault, const std::string& more) {
   if (!courses_[fault].effect.empty()) courses_[fault].effect += more;
   courses_[fault].failure.clear();
+  courses_[fault].not_undone = false;
+}
+
+void SoakWatch::NotePauses(const Limits& limits, SteadyTime now, const LongestPause& longest) {
+  for (const std::size_t i : open_) {
+    FaultCourse& course = courses_[i];
+    for (const Expected& expected : ExpectedOf(schedule_[i], limits)) {
+      auto& paused = course.paused[static_cast<std::size_t>(expected.mechanism)];
+      const SteadyTime latest = LatestReport(*course.began, expected);
+      if (!paused && now >= latest + kPauseKnown) paused = longest(*course.began, latest);
+    }
+  }
 }
 
 void SoakWatch::SetAway(VehicleId vehicle, bool away) {

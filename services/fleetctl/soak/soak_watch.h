@@ -36,6 +36,8 @@ class SoakWatch {
   void Fold(VehicleId by, const LogEvent& word);
   void NoteBegin(std::size_t fault, SteadyTime now);
   void NoteEnd(std::size_t fault, SteadyTime now);
+  // It ended because the soak does, and before its time.
+  void NoteCutOff(std::size_t fault) { courses_[fault].cut_off = true; }
   // The supervisor observed it. The first message stays.
   void NoteEffect(std::size_t fault, std::string effect);
   // What was seen of it later, where any effect was. As the first, it settles an earlier failure.
@@ -46,6 +48,16 @@ class SoakWatch {
   }
   // An attempt to inject it, or to undo it, failed; the last one is kept.
   void NoteFailure(std::size_t fault, std::string why) { courses_[fault].failure = std::move(why); }
+  // An attempt to undo it failed. That fails the soak, unless a later one succeeds, or there is
+  // `nothing` left that it could undo.
+  void NoteNotUndone(std::size_t fault, std::string why, bool nothing) {
+    NoteFailure(fault, std::move(why));
+    courses_[fault].not_undone = !nothing;
+  }
+  using LongestPause = std::function<Nanoseconds(SteadyTime from, SteadyTime to)>;
+  // How long the machine paused while peers had to report the open faults, of each once that time
+  // and a second are over: what knows it forgets it long before the verdict.
+  void NotePauses(const Limits& limits, SteadyTime now, const LongestPause& longest);
   // Nothing is expected of a process that is meant to be gone; a new one has to report everything
   // again.
   void SetAway(VehicleId vehicle, bool away);

@@ -1,6 +1,7 @@
 // A soak's result as the message of idl/soak.proto.
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "services/fleetctl/soak/soak_schema.h"
 #include "services/runtime/utf8.h"
@@ -122,10 +123,14 @@ void Write(const AccountingRow& row, schema::SoakAccounting* message) {
   message->set_difference(AsDouble(row.Difference()));
 }
 
-template <typename Items, typename Add>
-void WriteAll(const Items& items, Add&& add) {
-  const std::size_t listed = std::min(items.size(), kMostListed);
-  for (std::size_t i = 0; i < listed; ++i) Write(items[i], add());
+template <typename Item>
+std::span<const Item> FirstOf(const std::vector<Item>& items) {
+  return std::span(items).first(std::min(items.size(), kMostListed));
+}
+
+template <typename Item, typename Add>
+void WriteAll(const std::vector<Item>& items, Add&& add) {
+  for (const Item& item : FirstOf(items)) Write(item, add());
 }
 
 void WriteHead(const SoakResult& result, schema::SoakReport* message) {
@@ -177,9 +182,10 @@ schema::SoakReport SchemaOf(const SoakResult& result) {
   message.set_faults_observed(AsDouble(result.faults_observed));
   message.set_ticks_judged(AsDouble(result.ticks_judged));
   message.set_ticks_unseen(AsDouble(result.ticks_unseen));
-  for (const std::string& skipped : result.skipped_faults) {
+  for (const std::string& skipped : FirstOf(result.skipped_faults)) {
     message.add_skipped_faults(WellFormed(skipped));
   }
+  message.set_skipped_counted(AsDouble(result.skipped_counted));
   WriteAll(result.violations, [&message] { return message.add_violations(); });
   message.set_violations_counted(
       AsDouble(std::max<std::uint64_t>(result.violations_counted, result.violations.size())));

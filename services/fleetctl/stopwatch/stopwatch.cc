@@ -8,6 +8,7 @@
 #include <exception>
 #include <filesystem>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 #include "services/config/scenario_file.h"
@@ -30,10 +31,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kBroken = 1;
 // A fleet has this many trials of a fault; then a new one continues with it.
 constexpr std::uint32_t kTrialsAFleet = 20;
 constexpr int kAttempts = 3;  // at cuts that came before discovery was complete
+
+int CodeOf(StopwatchVerdict verdict) {
+  constexpr int kNotKept = 1;
+  if (verdict == StopwatchVerdict::kNotRun) return kCouldNotRun;
+  return verdict == StopwatchVerdict::kKept ? 0 : kNotKept;
+}
 
 // A folder that is removed with this object.
 class ScratchFolder {
@@ -90,11 +96,16 @@ class Session {
     {
       std::vector<std::jthread> threads;
       const std::size_t fleets = std::min<std::size_t>(options_.fleets, tasks_.size());
-      for (std::size_t i = 0; i < fleets; ++i) threads.emplace_back([this] { Work(); });
+      try {
+        while (threads.size() < fleets) threads.emplace_back([this] { Work(); });
+      } catch (const std::system_error&) {
+        if (threads.empty()) throw;  // fewer of them measure the same, for longer
+      }
     }
     // Previous measurements are shown all the same.
     if (error_ && trials_.empty()) std::rethrow_exception(error_);
     if (next_ < tasks_.size() && report_.problems.empty()) report_.problems = {"interrupted"};
+    report_.interrupted = trials_.size() < wanted_ && Interrupts::Count() > 0;
     report_.vehicles = options_.vehicles;
     report_.fleets = options_.fleets;
     report_.seed = options_.seed;
@@ -183,8 +194,7 @@ int RunStopwatch(const StopwatchOptions& options) {
   const Limits limits =
       ReadLimits(qos_file, options.interface, options.vehicles + 1, scenario.vehicles.front());
   if (options.table) {
-    std::fputs(FoldedForTerminal(TableText(limits)).c_str(), stdout);
-    return 0;
+    return PrintAll(FoldedForTerminal(TableText(limits))) ? 0 : kCouldNotRun;
   }
   if (!options.logs_folder.empty()) CheckFolder(options.logs_folder);
   const Interrupts interrupts;
@@ -197,13 +207,11 @@ int RunStopwatch(const StopwatchOptions& options) {
   spec.options.vehicles = 0;  // without an id of the scenario
   Session session(options, spec, limits);
   const StopwatchReport report = session.Run();
-  std::fputs((options.json ? StopwatchJson(report) : ForTerminal(StopwatchText(report))).c_str(),
-             stdout);
-  if (std::fflush(stdout) != 0) {
+  if (!PrintAll(options.json ? StopwatchJson(report) : ForTerminal(StopwatchText(report)))) {
     std::fprintf(stderr, "cannot write the figures to stdout\n");
     return kCouldNotRun;
   }
-  return report.Kept() ? 0 : kBroken;
+  return CodeOf(report.Verdict());
 }
 
 }  // namespace giveway::fleetctl

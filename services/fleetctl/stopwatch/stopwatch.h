@@ -23,7 +23,7 @@ struct StopwatchOptions {
   bool table = false;       // only print which mechanism must see which fault
 };
 
-// 0 every promise was kept; 1 one was broken, or it was interrupted; 2 could not run.
+// 0 every promise was kept; 1 one was broken, or not every trial was made; 2 none could be made.
 int RunStopwatch(const StopwatchOptions& options);
 
 }  // namespace giveway::fleetctl

@@ -1,6 +1,7 @@
 #include "services/fleetctl/stopwatch/stopwatch_fleet.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "services/config/scenario_file.h"
 #include "services/runtime/process.h"
@@ -45,6 +46,9 @@ void StopwatchFleet::Turn() {
     if (event->kind == LogEventKind::kBlackoutsCount) blackouts_since_[vehicle] = event->at;
     hearing_.Fold(vehicle, *event);
     events_.push_back({vehicle, *event});
+  }
+  for (const std::string& complaint : processes_.TakeLogComplaints()) {
+    std::fprintf(stderr, "%s\n", complaint.c_str());
   }
 }
 

@@ -80,6 +80,34 @@ std::string MaskingHint(const StopwatchReport& report) {
       Name(report.limits.tracked));
 }
 
+std::string_view Name(StopwatchVerdict verdict) {
+  switch (verdict) {
+    case StopwatchVerdict::kKept:
+      return "kept";
+    case StopwatchVerdict::kBroken:
+      return "broken";
+    case StopwatchVerdict::kIncomplete:
+      return "incomplete";
+    case StopwatchVerdict::kNotRun:
+      return "not_run";
+  }
+  return "";
+}
+
+std::string_view Sentence(StopwatchVerdict verdict) {
+  switch (verdict) {
+    case StopwatchVerdict::kKept:
+      return "every promise was kept";
+    case StopwatchVerdict::kBroken:
+      return "not every promise was kept";
+    case StopwatchVerdict::kIncomplete:
+      return "not every trial could be made";
+    case StopwatchVerdict::kNotRun:
+      return "NOT RUN: no trial could be made";
+  }
+  return "";
+}
+
 Json JsonOfTerm(const Term& term) {
   Json one;
   one["ms"] = Milliseconds(term.time);
@@ -117,8 +145,10 @@ Json JsonOf(const Cell& cell, const Limits& limits) {
 
 }  // namespace
 
-bool StopwatchReport::Kept() const {
-  return problems.empty() && std::ranges::all_of(cells, &Cell::Kept);
+StopwatchVerdict StopwatchReport::Verdict() const {
+  if (!std::ranges::all_of(cells, &Cell::Kept)) return StopwatchVerdict::kBroken;
+  if (cells.empty() && !interrupted) return StopwatchVerdict::kNotRun;
+  return problems.empty() && !interrupted ? StopwatchVerdict::kKept : StopwatchVerdict::kIncomplete;
 }
 
 std::vector<std::string> Findings(const StopwatchReport& report) {
@@ -128,7 +158,6 @@ std::vector<std::string> Findings(const StopwatchReport& report) {
   }
   const std::string hint = MaskingHint(report);
   if (!hint.empty()) findings.push_back(hint);
-  findings.insert(findings.end(), report.problems.begin(), report.problems.end());
   return findings;
 }
 
@@ -150,14 +179,14 @@ std::string StopwatchText(const StopwatchReport& report) {
     text += fmt::format("  {:<11} {}\n", Name(mechanism), sum.empty() ? "off" : sum);
   }
   for (const std::string& finding : Findings(report)) text += "\nBROKEN " + finding;
-  return text + fmt::format("\n{} after {:.0f} s; {} false alarms\n",
-                            report.Kept() ? "every promise was kept" : "not every promise was kept",
+  for (const std::string& problem : report.problems) text += "\nnot tried: " + problem;
+  return text + fmt::format("\n{} after {:.0f} s; {} false alarms\n", Sentence(report.Verdict()),
                             report.took_s, report.false_alarms);
 }
 
 std::string StopwatchJson(const StopwatchReport& report) {
   Json json;
-  json["verdict"] = report.Kept() ? "kept" : "broken";
+  json["verdict"] = Name(report.Verdict());
   json["qos"] = report.qos_file;
   json["liveliness_asserted"] = Name(report.limits.asserted);
   json["liveliness_tracked"] = Name(report.limits.tracked);
@@ -167,6 +196,7 @@ std::string StopwatchJson(const StopwatchReport& report) {
   json["took_s"] = report.took_s;
   json["false_alarms"] = report.false_alarms;
   json["findings"] = Findings(report);
+  json["not_tried"] = report.problems;
   json["cells"] =
       JsonArray(report.cells, [&](const Cell& cell) { return JsonOf(cell, report.limits); });
   return JsonText(std::move(json)) + "\n";

@@ -9,6 +9,14 @@
 
 namespace giveway::fleetctl {
 
+// What all trials together come to.
+enum class StopwatchVerdict : std::uint8_t {
+  kKept,        // every promise was, and every trial could be made
+  kBroken,      // a promise was
+  kIncomplete,  // none was, but not every trial could be made
+  kNotRun,      // no trial could be made: nothing is known of any promise
+};
+
 struct StopwatchReport {
   std::string qos_file;
   std::uint32_t vehicles = 0;
@@ -21,8 +29,10 @@ struct StopwatchReport {
   std::uint32_t false_alarms = 0;
   std::vector<std::string> problems;  // trials that could not be made
 
-  // Every cell kept its promise, and every trial could be made.
-  bool Kept() const;
+  bool interrupted = false;  // by the user, with trials left: no fault of the fleets
+
+  StopwatchVerdict Verdict() const;
+  bool Kept() const { return Verdict() == StopwatchVerdict::kKept; }
 };
 
 // "kill: liveliness was seen by 3 of 12 too late, ...": a line for each promise that was broken.

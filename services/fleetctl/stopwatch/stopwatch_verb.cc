@@ -9,7 +9,7 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr const char* kStopwatchFooter = R"(
-Starts fleets of real processes, injects faults into vehicles one after another, and measures the time
+Starts fleets of real processes, injects faults into up to half of each at once, and measures the time
 until each peer reports in its log that it noticed, by each mechanism: age of the newest beacon, DEADLINE,
 LIVELINESS, participant lease, leave notice (good_bye). --table shows which must notice which fault, and within what time.
 
@@ -27,7 +27,8 @@ Examples
   fleetctl stopwatch --faults kill,hung --qos mine.xml
   fleetctl stopwatch --table
 
-Exit code: 0 every promise was kept; 1 one was broken, or it was interrupted; 2 could not run.
+Exit code: 0 every promise was kept; 1 one was broken, or not every trial was made (interrupted); 2 none could
+be made.
 )";
 
 // Above 32 vehicles the code sets another lease; one place stays free.
@@ -83,9 +84,10 @@ void AddFlags(CLI::App* verb, Given* given) {
   verb->add_flag("--quick", given->quick,
                  "10 trials of each fault: under 2 minutes with 8 vehicles")
       ->excludes(trials);
-  verb->add_flag("--table", options->table,
-                 "Only print what must notice which fault within what time");
-  verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
+  CLI::Option* const table = verb->add_flag(
+      "--table", options->table, "Only print what must notice which fault within what time");
+  verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else")
+      ->excludes(table);
 }
 
 }  // namespace

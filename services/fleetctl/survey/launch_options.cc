@@ -54,15 +54,22 @@ std::optional<std::string> Started::Value(const std::string& flag) const {
 }
 
 bool Started::Switch(const std::string& flag) const {
-  if (std::ranges::find(words, flag) != words.end()) return true;
+  const auto is_on = [](std::string_view value) { return value == "1" || value == "true"; };
+  for (auto word = words.rbegin(); word != words.rend(); ++word) {  // the last one counts
+    if (*word == flag) return true;
+    if (word->starts_with(flag + "=")) return is_on(word->substr(flag.size() + 1));
+  }
   const std::string twin = TwinOf(flag) + "=";
   return std::ranges::any_of(environment, [&](const std::string& variable) {
-    return variable == twin + "1" || variable == twin + "true";
+    return variable.starts_with(twin) && is_on(variable.substr(twin.size()));
   });
 }
 
 bool Started::IsVehicle() const { return ProgramOf(words) == "giveway-vehicle"; }
 bool Started::IsWorld() const { return ProgramOf(words) == "giveway-world"; }
+bool Started::IsTool() const {
+  return ProgramOf(words) == "fleetctl" || ProgramOf(words) == "giveway-observer";
+}
 
 LaunchOptions ReadLaunchOptions(const Started& started, std::vector<std::string>* not_known) {
   LaunchOptions launch;
@@ -71,6 +78,11 @@ LaunchOptions ReadLaunchOptions(const Started& started, std::vector<std::string>
   launch.domain = UintOr(0, started.Value("--domain"));
   launch.interface = started.Value("--interface").value_or(launch.interface);
   launch.qos_file = started.Value("--qos").value_or("");
+  if (const auto text = started.Value("--discovery-server")) {
+    ParsedDiscoveryServers parsed = ParseDiscoveryServers(*text);
+    if (!parsed.fault.empty()) not_known->push_back("discovery servers: " + *text);
+    launch.discovery_servers = std::move(parsed.servers);
+  }
   launch.leaves_out_shared_memory = started.Value("--leave-out") == "shared_memory";
   launch.scenario = started.Value("--scenario").value_or("");
   launch.partition_free = !launch.is_world && started.Switch("--partition-free");

@@ -22,6 +22,8 @@ struct Started {
   // Whether it is a service of a fleet, and which one.
   bool IsVehicle() const;
   bool IsWorld() const;
+  // Whether it joins fleets without being a part of one: fleetctl, giveway-observer.
+  bool IsTool() const;
 };
 
 // Everything except the scenario's options and the default of --qos. `not_known` gets what is

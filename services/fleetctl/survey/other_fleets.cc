@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "services/fleetctl/survey/why_proc_text.h"
+#include "services/runtime/utf8.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -33,13 +34,14 @@ std::vector<std::string> OtherFleets(const std::vector<FleetMember>& members, st
   std::vector<std::string> lines;
   for (const auto& [network, pids] : others) {
     const bool inside = network.first == network_namespace;
-    lines.push_back(fmt::format(
+    // An interface is a word of any user's command line.
+    lines.push_back(Printable(fmt::format(
         "domain {} is also that of a fleet which is not asked here, on interface {}{} "
         "(processes{}): "
         "choose it by {}",
         domain, network.second,
         inside ? "" : fmt::format(" of network namespace {}", network.first), pids,
-        inside ? "--interface " + network.second : "running fleetctl there, see nsenter(1)"));
+        inside ? "--interface " + network.second : "running fleetctl there, see nsenter(1)")));
   }
   return lines;
 }

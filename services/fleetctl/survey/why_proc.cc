@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "services/config/config_dir.h"
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/process/whole_number.h"
 #include "services/fleetctl/survey/launch_options.h"
@@ -29,12 +30,42 @@ std::optional<std::string> ReadLink(const fs::path& link) {
   return to.string();
 }
 
-std::optional<Started> ReadStarted(const fs::path& process) {
+std::optional<Started> ReadAnyStarted(const fs::path& process) {
   const auto words = ReadWholeFile(process / "cmdline");
   if (!words || words->empty()) return std::nullopt;  // gone, or a zombie
-  Started started{ZeroEnded(*words), ZeroEnded(ReadWholeFile(process / "environ").value_or(""))};
-  if (!started.IsVehicle() && !started.IsWorld()) return std::nullopt;
+  return Started{ZeroEnded(*words), ZeroEnded(ReadWholeFile(process / "environ").value_or(""))};
+}
+
+std::optional<Started> ReadStarted(const fs::path& process) {
+  auto started = ReadAnyStarted(process);
+  if (!started || (!started->IsVehicle() && !started->IsWorld())) return std::nullopt;
   return started;
+}
+
+struct OpenFiles {
+  std::uint64_t count = 0;
+  std::set<std::uint16_t> udp_ports;
+};
+
+// nullopt, and errno set, if they cannot be read.
+std::optional<OpenFiles> ReadOpenFiles(const fs::path& process) {
+  std::error_code error;
+  fs::directory_iterator files(process / "fd", error);
+  const auto udp = ReadWholeFile(process / "net/udp");
+  if (error || !udp) {
+    errno = error ? error.value() : errno;
+    return std::nullopt;
+  }
+  const auto ports = ParseUdp(*udp);
+  OpenFiles open;
+  for (const fs::directory_entry& file : files) {
+    ++open.count;
+    const auto link = ReadLink(file.path());
+    const auto inode = link ? ParseBracketed(*link, "socket") : std::nullopt;
+    const auto port = inode ? ports.find(*inode) : ports.end();
+    if (port != ports.end()) open.udp_ports.insert(port->second);
+  }
+  return open;
 }
 
 // Reads one process into a situation, fact by fact.
@@ -143,25 +174,10 @@ void Reading::ReadNetwork() {
 
 void Reading::ReadFiles() {
   to_.open_files_limit = ParseOpenFilesLimit(ReadWholeFile(process_ / "limits").value_or(""));
-  std::error_code error;
-  fs::directory_iterator files(process_ / "fd", error);
-  const auto udp = ReadWholeFile(process_ / "net/udp");
-  if (error || !udp) {
-    errno = error ? error.value() : errno;
-    return NotKnown("ports");
-  }
-  const auto ports = ParseUdp(*udp);
-  std::set<std::uint16_t> held;
-  std::uint64_t count = 0;
-  for (const fs::directory_entry& file : files) {
-    ++count;
-    const auto link = ReadLink(file.path());
-    const auto inode = link ? ParseBracketed(*link, "socket") : std::nullopt;
-    const auto port = inode ? ports.find(*inode) : ports.end();
-    if (port != ports.end()) held.insert(port->second);
-  }
-  to_.open_files = count;
-  to_.ports.emplace(held.begin(), held.end());
+  const auto open = ReadOpenFiles(process_);
+  if (!open) return NotKnown("ports");
+  to_.open_files = open->count;
+  to_.ports.emplace(open->udp_ports.begin(), open->udp_ports.end());
 }
 
 // The folder in which the process finds its shipped files, as in services/config/config_dir.cc.
@@ -180,12 +196,11 @@ fs::path Reading::ConfigFolder() const {
 
 void Reading::ReadScenario() {
   if (to_.launch.scenario.empty()) return;
-  std::error_code error;
   fs::path file = Seen(to_.launch.scenario);
-  if (!fs::exists(file, error)) {
+  if (!NamesFile(file)) {
     file = Seen(ConfigFolder() / "scenarios" / (to_.launch.scenario + ".textproto"));
   }
-  if (!fs::exists(file, error)) {
+  if (!NamesFile(file)) {
     to_.not_known.push_back("scenario " + to_.launch.scenario + ": cannot be read");
     return;
   }
@@ -195,11 +210,10 @@ void Reading::ReadScenario() {
 
 // A file, or the shipped set of that name, as in services/config/config_dir.cc.
 fs::path Reading::ProfilesNamed(const std::string& argument) const {
-  std::error_code error;
   if (argument.find('/') != std::string::npos || argument.ends_with(".xml")) return argument;
-  if (fs::exists(Seen(argument), error)) return argument;
+  if (NamesFile(Seen(argument))) return argument;
   const fs::path shipped = ConfigFolder() / "qos" / (argument + ".xml");
-  return fs::exists(Seen(shipped), error) ? shipped : fs::path(argument);
+  return NamesFile(Seen(shipped)) ? shipped : fs::path(argument);
 }
 
 void Reading::ReadProfiles() {
@@ -261,6 +275,20 @@ std::vector<FleetMember> FindFleet(const fs::path& proc) {
                        launch.interface, network ? ParseBracketed(*network, "net") : std::nullopt});
   }
   return members;
+}
+
+std::optional<std::vector<std::uint16_t>> PortsOfTools(const fs::path& proc) {
+  std::set<std::uint16_t> ports;
+  for (const int pid : ProcessIds(proc)) {
+    const fs::path process = proc / std::to_string(pid);
+    const auto started = ReadAnyStarted(process);
+    if (!started || !started->IsTool()) continue;
+    const auto open = ReadOpenFiles(process);
+    std::error_code error;
+    if (!open && fs::exists(process, error)) return std::nullopt;
+    if (open) ports.insert(open->udp_ports.begin(), open->udp_ports.end());
+  }
+  return std::vector<std::uint16_t>(ports.begin(), ports.end());
 }
 
 std::optional<ProcessSituation> ReadSituation(const fs::path& proc, int pid) {

@@ -65,6 +65,11 @@ std::optional<std::int64_t> ParticipantNumber(const ProcessSituation& process, q
   return profile->Number(policy);
 }
 
+std::optional<std::int64_t> DiscoveryProtocol(const ProcessSituation& process) {
+  if (!process.launch.discovery_servers.empty()) return qos::kClient;
+  return ParticipantNumber(process, qos::Policy::kDiscoveryProtocol);
+}
+
 bool UsesSharedMemory(const ProcessSituation& process) {
   return process.profiles && !process.launch.leaves_out_shared_memory &&
          qos::UsesSharedMemory(*process.profiles);

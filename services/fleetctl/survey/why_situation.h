@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "services/qos/profile_set.h"
+#include "services/types/discovery_server.h"
 #include "services/types/ids.h"
 #include "services/types/impairment.h"
 
@@ -35,6 +36,8 @@ struct LaunchOptions {
   VehicleId id = kNoVehicle;  // of a vehicle that requested one
   std::uint32_t domain = 0;
   std::string interface = "127.0.0.1";
+  // Overrides the profile set's discovery; none: as the set says.
+  std::vector<DiscoveryServer> discovery_servers;
   std::string qos_file;  // as the process sees it; absolute
   std::string scenario;
   bool partition_free = false;
@@ -82,6 +85,9 @@ std::vector<NetworkAddress> AllowedAddresses(const ProcessSituation& process);
 std::optional<std::uint16_t> HostId(const ProcessSituation& process);
 // A policy of its participant profile; absent if the set or the profile is not known.
 std::optional<std::int64_t> ParticipantNumber(const ProcessSituation& process, qos::Policy policy);
+// How it finds others, see qos::Discovery: as its options say, else its set. Absent if neither is
+// known.
+std::optional<std::int64_t> DiscoveryProtocol(const ProcessSituation& process);
 bool UsesSharedMemory(const ProcessSituation& process);
 // The ids of the participants whose ports it holds.
 std::vector<std::uint32_t> ParticipantIds(const ProcessSituation& process);

@@ -20,8 +20,10 @@ the scenario's.
 Each candidate is the base with values replaced, passes `fleetctl qos check` without an error, and is
 run by real vehicles in a domain of its own: watched while all are alive, when every alarm is a
 false one, then up to three are killed (kill -9). All get one trial, the better half more, and so on.
-  false alarm   a vehicle stops believing a living peer, by deadline, liveliness or beacon age
-  noticed after from a killed vehicle's last beacon to the turn in which a peer acts on its silence
+  false alarm    a vehicle stops believing a living peer, by deadline,
+                 liveliness or beacon age
+  noticed after  from a killed vehicle's last beacon to the cycle of the
+                 control loop in which a peer acts on its silence
 Both are read from what the vehicles recorded, replayed by fresh brains. Bandwidth is what a
 vehicle heard, all packets; CPU is utime + stime of a vehicle's process.
 

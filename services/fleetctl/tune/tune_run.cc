@@ -19,11 +19,13 @@
 #include "services/fleetctl/process/child_process.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/process/program_id.h"
 #include "services/fleetctl/tune/tune_draw.h"
 #include "services/fleetctl/tune/tune_front.h"
 #include "services/fleetctl/tune/tune_report.h"
 #include "services/fleetctl/tune/tune_search.h"
 #include "services/link/convert/crc32c.h"
+#include "services/link/fastdds/library_release.h"
 #include "services/qos/profile_check.h"
 #include "services/runtime/json.h"
 
@@ -47,11 +49,21 @@ QosTuneOptions Filled(QosTuneOptions options) {
   return options;
 }
 
+Json ProgramsJson() {
+  Json programs;
+  for (const char* const service : {"giveway-world", "giveway-vehicle"}) {
+    programs[service] = ProgramIdOf(ProgramFolder() / service);
+  }
+  return programs;
+}
+
 // Everything that the evidence depends on; the number of parallel fleets may change.
 std::string PlanOf(const QosTuneOptions& options, const qos::ProfileFile& base) {
   const std::span bytes(reinterpret_cast<const std::uint8_t*>(base.bytes.data()),
                         base.bytes.size());
   Json plan;
+  plan["programs"] = ProgramsJson();
+  plan["library"] = std::string(link::LibraryName());
   plan["base"] = base.name;
   plan["base_crc"] = link::Crc32c(bytes);
   plan["impair"] = options.impair;
@@ -114,7 +126,8 @@ qos::ProfileFile Tuning::ReadBase() {
   qos::ProfileFile base = std::move(std::get<qos::ProfileFile>(read));
   const qos::Findings findings = qos::Check({base}, {.vehicles = options_.vehicles});
   if (qos::ExitCode(findings) >= 2) {
-    Refuse(path, findings.front().values + ": " + findings.front().consequence,
+    const auto error = std::ranges::find(findings, qos::Severity::kError, &qos::Finding::severity);
+    Refuse(path, error->values + ": " + error->consequence,
            "fleetctl qos check " + path + " says all that is wrong; correct it first");
   }
   const std::string why =
@@ -254,23 +267,12 @@ TuneResult Tuning::Run() {
 // Adds the choice of `fleetctl qos tune` at the top of the file.
 std::string Headed(const std::string& profile, const TuneResult& result) {
   const TunedCandidate& chosen = result.candidates[result.recommended];
-  std::string note = fmt::format(
-      "fleetctl qos tune: {} vehicles, {}: fleet/beacon with {}.\n"
-      "     From {}; where a comment below says otherwise of fleet/beacon, this holds.",
-      result.fleet.vehicles, result.impair, QosText(chosen.candidate.qos), result.base_file);
-  // Two hyphens would end the comment.
-  for (std::size_t at = note.find("--"); at != std::string::npos; at = note.find("--")) {
-    note.replace(at, 2, "-");
-  }
-  const std::size_t declaration = profile.starts_with("<?xml") ? profile.find("?>") + 2 : 0;
-  return profile.substr(0, declaration) + (declaration == 0 ? "" : "\n") + "<!-- " + note + " -->" +
-         (declaration == 0 ? "\n" : "") + profile.substr(declaration);
-}
-
-// False if it could not be written to stdout.
-bool Print(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
-  return std::fflush(stdout) == 0;
+  return qos::WithComment(
+      profile,
+      fmt::format("fleetctl qos tune: {} vehicles, {}: fleet/beacon with {}.\n"
+                  "     From {}; where a comment below says otherwise of fleet/beacon, this holds.",
+                  result.fleet.vehicles, result.impair, QosText(chosen.candidate.qos),
+                  result.base_file));
 }
 
 }  // namespace
@@ -281,7 +283,8 @@ int RunQosTune(const QosTuneOptions& options) {
     const TuneResult result = tuning.Run();
     const TuneStore& store = tuning.Store();
     const std::string& chosen = result.candidates[result.recommended].candidate.name;
-    const bool written = Print(options.json ? ToJson(result) + "\n" : ForTerminal(ToText(result)));
+    const bool written =
+        PrintAll(options.json ? ToJson(result) + "\n" : ForTerminal(ToText(result)));
     return WriteAfterVerdict(written && result.IsBetter() ? 0 : 1, [&] {
       store.Write("recommended.xml", Headed(tuning.ProfileOf(chosen), result));
       store.Write("evidence.json", ToJson(result) + "\n");

@@ -121,9 +121,10 @@ TuneStore::TuneStore(fs::path folder, const std::string& plan) : folder_(std::mo
   MakeFolder(folder_ / "trials");
   const fs::path plan_file = folder_ / "plan.json";
   if (fs::exists(plan_file) && ReadWholeFile(plan_file).value_or("") != plan + "\n") {
-    throw OutputError(folder_.string() +
-                      " holds the evidence of another search (plan.json says which); give its "
-                      "arguments to resume it, or another --out");
+    throw OutputError(
+        folder_.string() +
+        " holds the evidence of another search, or of other programs (plan.json says which); "
+        "give its arguments to resume it, or another --out");
   }
   Write("plan.json", plan + "\n");
   std::vector<fs::path> files;

@@ -56,6 +56,9 @@ std::optional<double> BytesIn(const std::string& line) {
 
 TuneTrial::TuneTrial(const TuneGround& ground, const TrialOrder& order)
     : ground_(ground), order_(order), lock_(std::nullopt), random_(order.seed) {
+  // What a trial left that was killed: the vehicles would write next to its recordings, which would
+  // be read instead.
+  std::filesystem::remove_all(order.folder);
   std::filesystem::create_directories(order.folder);
   observer_.emplace(ObserverOptions(ground, lock_.Domain()));
   processes_.emplace(CommandsOf(ground, order, lock_));

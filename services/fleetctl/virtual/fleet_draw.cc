@@ -1,10 +1,10 @@
 #include "services/fleetctl/virtual/fleet_draw.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "services/config/braking_rules.h"
 #include "services/config/place_read.h"
+#include "services/types/math/math.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -30,7 +30,7 @@ constexpr std::uint64_t kPoseStream = 0x706f7365;
 
 // As many weak as strong ones, on a logarithmic scale.
 double UniformRatio(double low, double high, Random* dice) {
-  return low * std::exp(dice->Uniform(0, std::log(high / low)));
+  return low * Exp(dice->Uniform(0, Log(high / low)));
 }
 
 void DrawBody(double most_radius_m, Random* dice, RobotModel* profile) {
@@ -39,7 +39,7 @@ void DrawBody(double most_radius_m, Random* dice, RobotModel* profile) {
   const double longer = dice->Uniform(1, kLongest);
   if (!box) return;
   profile->shape = BodyShape::kBox;
-  const double half_width_m = profile->body_radius_m / std::sqrt(1 + longer * longer);
+  const double half_width_m = profile->body_radius_m / Sqrt(1 + longer * longer);
   profile->box_half_m = {longer * half_width_m, half_width_m};
 }
 

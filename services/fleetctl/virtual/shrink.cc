@@ -100,6 +100,7 @@ std::string ReplayFlags(const VirtualCase& made, const std::string& fault_file) 
     flags += fmt::format(" --fault {}:{}@{}", Word(fault.kind), Number(fault.vehicle), fault.at_s);
     if (fault.kind != sim::ProcessFaultKind::kCrash) flags += fmt::format("+{}", fault.for_s);
   }
+  if (plan.through_m) flags += fmt::format(" --through {}", *plan.through_m);
   return flags + JudgeFlag(plan);
 }
 

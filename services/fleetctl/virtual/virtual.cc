@@ -14,6 +14,7 @@
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/virtual/virtual_batch.h"
+#include "services/fleetctl/virtual/virtual_mcap.h"
 #include "services/report/virtual_report.h"
 #include "services/runtime/process.h"
 
@@ -119,11 +120,17 @@ class ProgressBar {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+// Of the picture, which shows one seed: its whole verdict.
+Headline HeadlineOf(const VirtualReport& report) {
+  if (report.verdict == Verdict::kPassed) return {report.verdict, report.reason};
+  const std::string unmet = report.unmet.empty() ? "" : "; " + report.unmet;
+  return {report.verdict, "broken: " + report.reason + unmet};
+}
+
 int Print(const VirtualOptions& options, const VirtualReport& report) {
   const std::string text = options.json ? ToJson(report) + "\n" : ForTerminal(ToText(report));
-  std::fputs(text.c_str(), stdout);
   const int code = ExitCode(report.verdict);
-  if (std::fflush(stdout) == 0) return code;
+  if (PrintAll(text)) return code;
   std::fprintf(stderr, "cannot write the verdict to stdout\n");
   return std::max(code, 1);
 }
@@ -132,6 +139,7 @@ int RunAll(const VirtualOptions& options) {
   for (const std::string& file : {options.shown.picture, options.shown.trace}) {
     if (!file.empty()) CheckWritable(file);
   }
+  if (!options.shown.mcap.empty()) CheckRecordable(options.shown.mcap);
   const CaseMaker maker(options.made_by);
   std::fputs(maker.Remark().c_str(), stderr);
   const Interrupts interrupts(Silence::kComputes);
@@ -154,8 +162,9 @@ int RunAll(const VirtualOptions& options) {
     report.reason = "interrupted";
   }
   const int code = Print(options, report);
-  if (!options.shown.Any()) return code;
-  return WriteAfterVerdict(code, [&] { ShowRun(maker.Make(options.seeds.low), options.shown); });
+  if (!options.shown.Any() || Interrupts::Count() > 0) return code;
+  return WriteAfterVerdict(
+      code, [&] { ShowRun(maker.Make(options.seeds.low), options.shown, HeadlineOf(report)); });
 }
 
 int RefuseToRun(const VirtualOptions& options, const char* reason, const std::exception& why) {

@@ -51,7 +51,21 @@ std::vector<SeedViolation> FirstOf(std::uint32_t seed, const sim::VirtualOutcome
   return first;
 }
 
+struct RunStopped {};
+
 }  // namespace
+
+std::optional<sim::VirtualOutcome> RunUnlessStopped(const VirtualCase& made,
+                                                    const std::atomic<bool>& stop) {
+  const auto watch = [&stop](const sim::VirtualFleet&) {
+    if (stop) throw RunStopped{};
+  };
+  try {
+    return sim::RunVirtually(made.scenario, made.plan, watch);
+  } catch (const RunStopped&) {
+    return std::nullopt;
+  }
+}
 
 void BatchTotals::Add(std::uint32_t seed, const sim::VirtualOutcome& outcome,
                       bool judge_expectations) {
@@ -85,16 +99,19 @@ BatchTotals RunBatch(const CaseMaker& maker, const WholeRange& seeds, std::uint3
                      const BatchProgress& progress) {
   std::mutex mutex;
   BatchTotals totals;
+  std::atomic<bool> stop = false;
   const auto run = [&](std::uint64_t piece) {
     const auto seed = static_cast<std::uint32_t>(seeds.low + piece);
     const VirtualCase made = maker.Make(seed);
-    const sim::VirtualOutcome outcome = sim::RunVirtually(made.scenario, made.plan);
+    const std::optional<sim::VirtualOutcome> outcome = RunUnlessStopped(made, stop);
+    if (!outcome) return;
     const std::lock_guard lock(mutex);
-    totals.Add(seed, outcome, maker.HasExpectations());
+    totals.Add(seed, *outcome, maker.HasExpectations());
   };
   RunOnThreads(seeds.high - seeds.low + 1ULL, jobs, run, [&] {
     const std::lock_guard lock(mutex);
-    return progress(totals);
+    stop = !progress(totals);
+    return !stop;
   });
   KeepFirst(&totals.first_violations);
   std::ranges::sort(totals.failing_seeds);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -42,6 +43,12 @@ struct BatchTotals {
 // Called from time to time from the thread that started the batch. False: stop soon.
 using BatchProgress = std::function<bool(const BatchTotals& so_far)>;
 
+// The outcome of one run; nullopt if it was stopped before its end, by another thread: at the next
+// tick, for a run of a large fleet takes many seconds.
+std::optional<sim::VirtualOutcome> RunUnlessStopped(const VirtualCase& made,
+                                                    const std::atomic<bool>& stop);
+
+// Runs that were stopped are not in the totals.
 BatchTotals RunBatch(const CaseMaker& maker, const WholeRange& seeds, std::uint32_t jobs,
                      const BatchProgress& progress);
 

@@ -7,6 +7,7 @@
 #include "services/config/plan_read.h"
 #include "services/config/problem.h"
 #include "services/config/scenario_file.h"
+#include "services/config/start_rules.h"
 #include "services/faults/expand.h"
 #include "services/faults/unsupported.h"
 
@@ -191,7 +192,7 @@ Scenario CaseMaker::MakeScenario(std::uint32_t seed, Random* dice) const {
     std::ranges::for_each(scenario.spawns, [&](auto& place) { fleet.Take(&place); });
     FillPlaces(options_.vehicles ? vehicles : std::max(1U, scenario.start_with), &scenario);
     scenario.seed = seed;
-    PerturbBySeed(&scenario);
+    PerturbWithinRules(name_, &scenario);
   }
   scenario.seed = options_.sensor_seed.value_or(scenario.seed);  // nothing is moved any more
   if (!loaded_ && options_.behaviour) {
@@ -208,6 +209,8 @@ VirtualCase CaseMaker::Make(std::uint32_t seed) const {
   VirtualCase made{MakeScenario(seed, &dice), {}};
   made.plan.seed = options_.radio_seed.value_or(seed);
   made.plan.also_required = options_.also_required;
+  made.plan.through_m =
+      generator_ != nullptr ? sim::ThroughMetres(*generator_, made.scenario) : options_.through_m;
   made.plan.radio = RadioOf(options_, &dice);
   using Kind = sim::ProcessFaultKind;
   AddFaults(Kind::kCrash, options_.crashes, made.scenario, &dice, &made.plan.faults);

@@ -35,6 +35,7 @@ struct CaseOptions {
   std::optional<Behaviour> behaviour;
   FleetChoice fleet;
   std::uint32_t also_required = 0;   // as of VirtualPlan
+  std::optional<double> through_m;   // the same, of a file
   std::optional<double> duration_s;  // of a scenario; absent: its own, or kEndless_s
   NumberRange loss_percent;
   bool burst = false;  // the loss comes in bursts, the mean is the same

@@ -18,17 +18,8 @@ namespace {
 // "LO..HI", or "N" for both.
 std::optional<NumberRange> ParseRange(const std::string& text) {
   const std::size_t dots = text.find("..");
-  const auto number = [](const std::string& part) -> std::optional<double> {
-    std::size_t used = 0;
-    try {
-      const double value = std::stod(part, &used);
-      if (used == part.size() && std::isfinite(value)) return value;
-    } catch (const std::exception&) {
-    }
-    return std::nullopt;
-  };
-  const auto low = number(text.substr(0, dots));
-  const auto high = dots == std::string::npos ? low : number(text.substr(dots + 2));
+  const auto low = FiniteNumber(text.substr(0, dots));
+  const auto high = dots == std::string::npos ? low : FiniteNumber(text.substr(dots + 2));
   if (!low || !high || *low > *high) return std::nullopt;
   return NumberRange{*low, *high};
 }
@@ -46,15 +37,6 @@ std::string WithoutPercentSigns(std::string text) {
   if (text.ends_with("%")) text.pop_back();
   if (dots != std::string::npos && dots > 0 && text[dots - 1] == '%') text.erase(dots - 1, 1);
   return text;
-}
-
-// CLI11's own range check lets "nan" pass.
-auto Between(double least, double most) {
-  return [=](const std::string& text) -> std::string {
-    const auto range = ParseRange(text);
-    if (range && range->low == range->high && range->low >= least && range->high <= most) return {};
-    return fmt::format("must be a number from {} to {}, not '{}'", least, most, text);
-  };
 }
 
 void AddRadioFlags(CLI::App* verb, CaseOptions* made_by) {
@@ -93,6 +75,14 @@ std::vector<SonarTier> TiersOf(const std::string& tier) {
   return {tier == "p3dx" ? SonarTier::kP3dx : SonarTier::kCrosstalk};
 }
 
+// A part of --fault. Later than the longest run it would never happen.
+double SecondsOf(const std::string& name, const std::string& text) {
+  constexpr double kLongestRun_s = 86400;
+  const std::string wrong = WhyNotBetween(text, 0, kLongestRun_s);
+  if (!wrong.empty()) throw CLI::ValidationError("--fault " + name, wrong);
+  return *FiniteNumber(text);
+}
+
 // KIND:ID@AT+FOR, seconds: pause:3@12.5+0.4.
 sim::ProcessFault FaultOf(const std::string& text) {
   static const std::regex kForm(R"((crash|pause|restart):(\d{1,9})@(\d+\.?\d*)(?:\+(\d+\.?\d*))?)");
@@ -107,8 +97,8 @@ sim::ProcessFault FaultOf(const std::string& text) {
                : part[1] == "pause" ? Kind::kPause
                                     : Kind::kRestart;
   fault.vehicle = VehicleId{static_cast<std::uint32_t>(std::stoul(part[2]))};
-  fault.at_s = std::stod(part[3]);
-  if (part[4].matched) fault.for_s = std::stod(part[4]);
+  fault.at_s = SecondsOf("AT", part[3]);
+  if (part[4].matched) fault.for_s = SecondsOf("FOR", part[4]);
   return fault;
 }
 
@@ -290,6 +280,11 @@ void AddCaseFlags(CLI::App* verb, CaseOptions* made_by) {
   AddRadioFlags(verb, made_by);
   AddFaultFlags(verb, made_by);
   AddJudgeFlag(verb, made_by);
+  verb->add_option("--through", made_by->through_m,
+                   "Of a file, as shrink prints it: how many metres of its place let only one "
+                   "through at a time. Then vehicles are due as a generator's are (delay), and of "
+                   "those that share a goal one must arrive")
+      ->check(Between(0, 1000));
 }
 
 }  // namespace giveway::fleetctl

@@ -33,8 +33,17 @@ VehicleStatus StatusOf(const Outputs& said, double forward_m_s, const RangeScan*
 
 }  // namespace
 
+void CheckRecordable(const std::string& path) { const VirtualRecording removed_again(path); }
+
 VirtualRecording::VirtualRecording(const std::string& path) : files_({.path = path}, {}) {
-  if (!files_.Start(SteadyTime{0})) throw OutputError(files_.Fault());
+  if (files_.Start(SteadyTime{0})) return;
+  files_.Discard();
+  throw OutputError(files_.Fault() +
+                    "; name a new file in a folder that exists and is yours to write");
+}
+
+VirtualRecording::~VirtualRecording() {
+  if (!whole_) files_.Discard();
 }
 
 void VirtualRecording::Write(const char* topic, std::string bytes) {
@@ -75,6 +84,7 @@ void VirtualRecording::Note(const sim::VirtualFleet& fleet) {
 
 void VirtualRecording::Close() {
   if (!files_.Close() || !files_.Fault().empty()) throw OutputError(files_.Fault());
+  whole_ = true;
 }
 
 }  // namespace giveway::fleetctl

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <optional>
 
 #include "services/fleetctl/output/decision_trace.h"
 #include "services/fleetctl/output/output_file.h"
+#include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/virtual/virtual_mcap.h"
-#include "services/report/picture.h"
 #include "sim_world/virtual/virtual_run.h"
 
 namespace giveway::fleetctl {
@@ -26,13 +27,16 @@ void Trace(const sim::VirtualFleet& fleet, std::string* text) {
   }
 }
 
-void AppendTruths(const sim::VirtualFleet& fleet, std::vector<Track>* tracks) {
+// Of the picture alone: it grows with the run.
+void AppendDrawn(const sim::VirtualFleet& fleet, std::vector<Track>* tracks,
+                 std::vector<WorldEvent>* events) {
   tracks->resize(fleet.Size());
   std::size_t index = 0;
   for (const Truth& truth : fleet.World().Truths()) {
     (*tracks)[index].vehicle = truth.vehicle;
     (*tracks)[index++].truths.push_back(truth);
   }
+  events->insert(events->end(), fleet.World().Events().begin(), fleet.World().Events().end());
 }
 
 // Violations as text after the trace, so that one file has everything.
@@ -44,41 +48,48 @@ void AppendVerdict(const sim::VirtualOutcome& outcome, std::string* text) {
   }
 }
 
-// The headline of the picture is the verdict of the invariants.
-void JudgeByInvariants(const sim::VirtualOutcome& outcome, std::vector<WorldEvent>* events) {
-  for (WorldEvent& event : *events) {
-    if (event.kind != EventKind::kVerdict) continue;
-    event.value = outcome.held ? 1 : 0;
-    event.text = outcome.held ? "every invariant held" : "broken:";
-    for (std::size_t i = 0; i < sim::kInvariantCount; ++i) {
-      if (outcome.violations[i] == 0) continue;
-      event.text += fmt::format(" {}", sim::Name(static_cast<sim::Invariant>(i)));
+// One file that cannot be written keeps no other from being written.
+class EachFile {
+ public:
+  void Write(const std::function<void()>& write) {
+    try {
+      write();
+    } catch (const OutputError& error) {
+      complaints_ += (complaints_.empty() ? "" : "\n") + std::string(error.what());
     }
   }
-}
+  void ThrowIfAnyFailed() const {
+    if (!complaints_.empty()) throw OutputError(complaints_);
+  }
+
+ private:
+  std::string complaints_;
+};
 
 }  // namespace
 
-void ShowRun(const VirtualCase& made, const ShownFiles& files) {
+void ShowRun(const VirtualCase& made, const ShownFiles& files, const Headline& headline) {
   std::optional<VirtualRecording> recording;
-  if (!files.mcap.empty()) recording.emplace(files.mcap);
+  EachFile each;
+  if (!files.mcap.empty()) each.Write([&] { recording.emplace(files.mcap); });
+  const bool is_drawn = !files.picture.empty();
   std::vector<Track> tracks;
   std::vector<WorldEvent> events;
   std::string trace(kTraceHead);
   const sim::VirtualOutcome outcome =
       sim::RunVirtually(made.scenario, made.plan, [&](const sim::VirtualFleet& fleet) {
-        AppendTruths(fleet, &tracks);
-        events.insert(events.end(), fleet.World().Events().begin(), fleet.World().Events().end());
+        if (Interrupts::Count() > 0) throw OutputError("interrupted before the run was drawn");
+        if (is_drawn) AppendDrawn(fleet, &tracks, &events);
         if (!files.trace.empty()) Trace(fleet, &trace);
         if (recording) recording->Note(fleet);
       });
   AppendVerdict(outcome, &trace);
-  JudgeByInvariants(outcome, &events);
-  if (!files.trace.empty()) WriteFile(files.trace, trace);
-  if (recording) recording->Close();
-  if (!files.picture.empty()) {
-    WriteFile(files.picture, DrawRun(made.scenario, tracks, events));
+  if (!files.trace.empty()) each.Write([&] { WriteFile(files.trace, trace); });
+  if (recording) each.Write([&] { recording->Close(); });
+  if (is_drawn) {
+    each.Write([&] { WriteFile(files.picture, DrawRun(made.scenario, tracks, events, headline)); });
   }
+  each.ThrowIfAnyFailed();
 }
 
 }  // namespace giveway::fleetctl

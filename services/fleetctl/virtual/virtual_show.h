@@ -4,6 +4,7 @@
 #include <string>
 
 #include "services/fleetctl/virtual/virtual_case.h"
+#include "services/report/picture.h"
 
 namespace giveway::fleetctl {
 
@@ -16,7 +17,8 @@ struct ShownFiles {
   bool Any() const { return !picture.empty() || !trace.empty() || !mcap.empty(); }
 };
 
-// Runs the case and writes the requested files. Throws OutputError.
-void ShowRun(const VirtualCase& made, const ShownFiles& files);
+// Runs the case and writes the requested files; the picture has the headline. Throws OutputError,
+// once the others are written, for those that could not be.
+void ShowRun(const VirtualCase& made, const ShownFiles& files, const Headline& headline);
 
 }  // namespace giveway::fleetctl

@@ -1,6 +1,7 @@
 #include <memory>
 #include <string>
 
+#include "services/fleetctl/args/flag_checks.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/virtual/virtual.h"
 #include "services/fleetctl/virtual/virtual_flags.h"
@@ -55,6 +56,7 @@ void AddVirtualVerb(CLI::App* fleetctl, int* exit_code) {
       ->needs(seed);
   verb->add_option("--mcap", options->shown.mcap,
                    "Record the run of --seed, for fleetctl replay and other tools")
+      ->check(CheckRecordingName)
       ->needs(seed);
   verb->callback([options, exit_code] { *exit_code = RunVirtual(*options); });
 }

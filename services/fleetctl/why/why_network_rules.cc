@@ -186,8 +186,8 @@ void CheckSharedMemory(const ProcessSituation& hearer, const ProcessSituation& s
 
 void CheckDiscovery(const ProcessSituation& hearer, const ProcessSituation& speaker,
                     Causes* causes) {
-  const auto a = ParticipantNumber(hearer, qos::Policy::kDiscoveryProtocol);
-  const auto b = ParticipantNumber(speaker, qos::Policy::kDiscoveryProtocol);
+  const auto a = DiscoveryProtocol(hearer);
+  const auto b = DiscoveryProtocol(speaker);
   if (!a || !b) return;
   const auto text = [](std::int64_t protocol) {
     return "finds others by " + qos::Text(qos::Policy::kDiscoveryProtocol, protocol);
@@ -200,7 +200,9 @@ void CheckDiscovery(const ProcessSituation& hearer, const ProcessSituation& spea
   } else if (IsClient(*a) != IsClient(*b)) {
     Add(Weight::kPrevents, "discovery_apart", values,
         "A client asks its server alone, and does not answer multicast.",
-        "the same discoveryProtocol in both profile sets", causes);
+        "the same discoveryProtocol in both profile sets, and --discovery-server for both or "
+        "neither",
+        causes);
   } else if (IsClient(*a)) {
     Add(Weight::kMayPrevent, "discovery_by_server", values,
         "They meet if both name one server and it runs, which is not known.",

@@ -74,6 +74,8 @@ link::LinkOptions OptionsOf(const LaunchOptions& launch) {
   options.qos = ReadSoundQos(launch.qos_file);
   options.area = launch.area;
   options.fleet_size = launch.fleet_size;
+  options.discovery_servers = launch.discovery_servers;
+  options.leaves_out_shared_memory = launch.leaves_out_shared_memory;
   return options;
 }
 

@@ -8,6 +8,7 @@
 
 #include "services/fleetctl/output/finding_text.h"
 #include "services/runtime/json.h"
+#include "services/runtime/utf8.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -267,7 +268,7 @@ std::string ToText(const WhyReport& report) {
   for (const std::string& line : {ReceiverReportText(report), HostIdText(report)}) {
     if (!line.empty()) text += line + "\n";
   }
-  for (const std::string& fact : report.not_known) text += "not known: " + fact + "\n";
+  for (const std::string& fact : report.not_known) text += Printable("not known: " + fact) + "\n";
   return text;
 }
 

@@ -41,11 +41,11 @@ void AddWhyVerb(CLI::App* fleetctl, int* exit_code) {
   verb->footer(kWhyFooter);
   verb->add_option_function<std::string>(
           "A", [options](const std::string& text) { options->hearer = Parse("A", text); },
-          "Who hears")
+          "The receiver")
       ->required();
   verb->add_option_function<std::string>(
           "B", [options](const std::string& text) { options->speaker = Parse("B", text); },
-          "Who is heard")
+          "The sender")
       ->required();
   verb->add_option("--domain", options->domain, "Only processes in this DDS domain")
       ->check(CLI::Range(kFirstDomain, kLastDomain));

@@ -263,7 +263,7 @@ bool FromWire(const wire::Truth& sample, Truth& truth) {
   truth.forward_m_s = sample.forward_m_s();
   truth.present = sample.present();
   truth.arrived = sample.arrived();
-  return true;
+  return std::isfinite(truth.time_s) && IsFinite(truth.world_from_body);
 }
 
 }  // namespace giveway::link

@@ -169,7 +169,7 @@ wire::PacketCounts ToWirePart(const PacketCounters& counters) {
   return sent;
 }
 
-// In the order of PacketDrop.
+// In the order of PacketDrop, but for the last one, which is at the end of a status.
 PacketCounters FromWirePart(const wire::PacketCounts& sent) {
   return {{sent.handed_on(), sent.dropped_foreign_source(), sent.dropped_not_rtps(),
            sent.dropped_unknown_kind(), sent.dropped_statistics(), sent.dropped_malformed(),
@@ -327,6 +327,7 @@ wire::Status ToWire(const VehicleStatus& status) {
     sent.accounts().push_back(ToWirePart(account));
   }
   sent.heap_bytes(status.heap_bytes.value_or(0));
+  sent.dropped_too_many_endpoints(status.packets.Of(PacketDrop::kTooManyEndpoints));
   return sent;
 }
 
@@ -355,6 +356,8 @@ bool FromWire(const wire::Status& sample, VehicleStatus& status) {
   status.packets = FromWirePart(sample.packets());
   status.refused = FromWirePart(sample.refused());
   status.impaired.metered = sample.impaired_metered();
+  status.packets.packets[static_cast<std::size_t>(PacketDrop::kTooManyEndpoints)] =
+      sample.dropped_too_many_endpoints();
   status.heap_bytes.reset();
   if (sample.heap_bytes() > 0) status.heap_bytes = sample.heap_bytes();
   return TakeTiming(sample, status.timing) && TakeAccounts(sample, status) &&
@@ -444,7 +447,9 @@ bool FromWire(const wire::Event& sample, WorldEvent& event) {
   event.other_position_world = {sample.other_x_m(), sample.other_y_m()};
   event.value = sample.value();
   event.text = sample.text().c_str();
-  return FromWirePart(sample.kind(), event.kind);
+  // JSON leaves out what is not finite, and the page relies on these.
+  return std::isfinite(event.time_s) && IsFinite(event.position_world) &&
+         IsFinite(event.other_position_world) && FromWirePart(sample.kind(), event.kind);
 }
 
 wire::Figures ToWire(const RunFigures& figures) {

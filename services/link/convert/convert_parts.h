@@ -1,6 +1,7 @@
 // The parts that several conversions share. Internal to convert*.cc.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -95,6 +96,10 @@ inline wire::PlanarPose ToWirePart(const Pose& pose) {
 
 inline Pose FromWirePart(const wire::PlanarPose& sent) {
   return {{sent.x_m(), sent.y_m()}, sent.heading_rad()};
+}
+inline bool IsFinite(Vec2 point) { return std::isfinite(point.x) && std::isfinite(point.y); }
+inline bool IsFinite(const Pose& pose) {
+  return IsFinite(pose.position_world) && std::isfinite(pose.heading_rad);
 }
 
 inline wire::DecisionRecord ToWirePart(const Decision& decision) {

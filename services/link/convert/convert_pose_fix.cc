@@ -25,9 +25,7 @@ bool FromWire(const wire::PoseFix& sample, PoseFix& fix) {
   fix.world_from_body = FromWirePart(sample.world_from_body());
   fix.sigma_position_m = sample.sigma_position_m();
   fix.sigma_heading_rad = sample.sigma_heading_rad();
-  const Pose& pose = fix.world_from_body;
-  return std::isfinite(pose.position_world.x) && std::isfinite(pose.position_world.y) &&
-         std::isfinite(pose.heading_rad) && std::isfinite(fix.sigma_position_m) &&
+  return IsFinite(fix.world_from_body) && std::isfinite(fix.sigma_position_m) &&
          fix.sigma_position_m > 0 && std::isfinite(fix.sigma_heading_rad) &&
          fix.sigma_heading_rad >= 0;
 }

@@ -35,7 +35,7 @@ class AnchoredReader {
     } else {
       ReadAll(dds::ANY_INSTANCE_STATE, visit);
     }
-    if (most_held_ + 1 >= depth_) KeepAnchors();
+    if (most_held_ + 1 >= std::min(depth_, kMostHeld)) KeepAnchors();
   }
   // Removes what is gone from a reader without a deadline, at every 32nd turn; with one its
   // listener does that, which alone knows when it may.
@@ -46,6 +46,8 @@ class AnchoredReader {
   static constexpr std::uint32_t kForgetEvery = 32;  // turns
   // A history of one sample cannot hold another next to the anchor.
   static constexpr std::int32_t kLeastDepth = 2;
+  // The library looks through all that a reader holds for each sample that comes or is taken.
+  static constexpr std::int32_t kMostHeld = 8;
 
   Loan<Wire> OfInstance(const dds::InstanceHandle_t& instance, dds::SampleStateMask state,
                         std::int32_t most) {

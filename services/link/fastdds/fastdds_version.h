@@ -123,6 +123,10 @@ inline const rtps::SerializedPayload_t& PayloadOf(const rtps::SerializedPayload_
 inline std::span<const std::uint8_t> PacedBytes(const rtps::octet* bytes, std::uint32_t size) {
   return {bytes, size};
 }
+// The bytes in front of what a transport is given to send: of acknowledgements all.
+inline std::span<const std::uint8_t> FirstBytes(const rtps::octet* bytes, std::uint32_t size) {
+  return {bytes, size};
+}
 // Whether a sample that was deserialized is all of it: what ends early is an exception here.
 inline bool IsWhole(dds::TopicDataType&, const rtps::SerializedPayload_t*, void*) { return true; }
 
@@ -209,6 +213,12 @@ inline std::span<const std::uint8_t> PacedBytes(const std::vector<transport::Net
                                                 std::uint32_t) {
   return {};
 }
+// The bytes in front of what a transport is given to send: of acknowledgements all.
+inline std::span<const std::uint8_t> FirstBytes(
+    const std::vector<transport::NetworkBuffer>& buffers, std::uint32_t) {
+  if (buffers.empty()) return {};
+  return {static_cast<const std::uint8_t*>(buffers.front().buffer), buffers.front().size};
+}
 // Fast CDR 2 takes bytes that end where a member does for a sample of an older, shorter type, and
 // leaves the rest as it is.
 inline bool IsWhole(dds::TopicDataType& type, const rtps::SerializedPayload_t& from, void* sample) {
@@ -225,17 +235,18 @@ inline bool IsWhole(dds::TopicDataType& type, const rtps::SerializedPayload_t& f
 namespace giveway::link {
 
 inline std::int64_t ToNanoseconds(const Duration& duration) {
-  constexpr std::int32_t kEndlessSeconds = 0x7fffffff;
-  if (duration.seconds == kEndlessSeconds) return kEndless;
+  constexpr std::int32_t kEndlessSeconds = 0x7fffffff;  // alone: a time that a profile says
+  if (duration.seconds == kEndlessSeconds && duration.nanosec != 0) return kEndless;
   return duration.seconds * std::int64_t{1'000'000'000} + duration.nanosec;
 }
 
 template <typename Partition, typename Reliability, typename Durability, typename Deadline,
-          typename Liveliness>
+          typename Liveliness, typename Ownership>
 FoundEndpoint MakeEndpoint(bool writes, const rtps::GUID_t& guid, std::string topic,
                            std::string type, const Partition& partition,
                            const Reliability& reliability, const Durability& durability,
-                           const Deadline& deadline, const Liveliness& liveliness) {
+                           const Deadline& deadline, const Liveliness& liveliness,
+                           const Ownership& ownership) {
   FoundEndpoint found;
   std::copy_n(guid.guidPrefix.value, 12, found.guid.begin());
   std::copy_n(guid.entityId.value, 4, found.guid.begin() + 12);
@@ -248,6 +259,7 @@ FoundEndpoint MakeEndpoint(bool writes, const rtps::GUID_t& guid, std::string to
   found.deadline_ns = ToNanoseconds(deadline.period);
   found.liveliness = static_cast<int>(liveliness.kind);
   found.lease_ns = ToNanoseconds(liveliness.lease_duration);
+  found.exclusive = ownership.kind == dds::EXCLUSIVE_OWNERSHIP_QOS;
   return found;
 }
 
@@ -257,14 +269,14 @@ inline FoundEndpoint Described(const dds::DataWriter& writer) {
   return MakeEndpoint(true, writer.guid(), writer.get_topic()->get_name(),
                       writer.get_topic()->get_type_name(),
                       writer.get_publisher()->get_qos().partition(), qos.reliability(),
-                      qos.durability(), qos.deadline(), qos.liveliness());
+                      qos.durability(), qos.deadline(), qos.liveliness(), qos.ownership());
 }
 inline FoundEndpoint Described(const dds::DataReader& reader) {
   const auto& qos = reader.get_qos();
   return MakeEndpoint(false, reader.guid(), reader.get_topicdescription()->get_name(),
                       reader.get_topicdescription()->get_type_name(),
                       reader.get_subscriber()->get_qos().partition(), qos.reliability(),
-                      qos.durability(), qos.deadline(), qos.liveliness());
+                      qos.durability(), qos.deadline(), qos.liveliness(), qos.ownership());
 }
 
 // Reports every writer in the domain that this participant discovers, its own included, and whether
@@ -277,6 +289,8 @@ class DiscoveryListener : public dds::DomainParticipantListener {
   virtual void OnWriter(Change change, const rtps::GUID_t& writer,
                         const std::vector<std::string>& partitions) = 0;
 
+  // From now on the endpoints found are kept for TakeEndpoints. Before the participant is made.
+  void KeepEndpoints() { keeps_endpoints_ = true; }
   // The endpoints of others found, or found changed, since the last call; of too many, the first.
   std::vector<FoundEndpoint> TakeEndpoints() { return endpoints_.Take(); }
 
@@ -325,20 +339,25 @@ class DiscoveryListener : public dds::DomainParticipantListener {
 #if __has_include(<fastrtps/config.h>)
   template <typename ProxyData>
   void NoteEndpoint(bool writes, const ProxyData& found) {
+    if (!keeps_endpoints_) return;
     const auto& qos = found.m_qos;
     endpoints_.Add(MakeEndpoint(writes, found.guid(), found.topicName().to_string(),
                                 found.typeName().to_string(), qos.m_partition, qos.m_reliability,
-                                qos.m_durability, qos.m_deadline, qos.m_liveliness));
+                                qos.m_durability, qos.m_deadline, qos.m_liveliness,
+                                qos.m_ownership));
   }
 #else
   template <typename TopicData>
   void NoteEndpoint(bool writes, const TopicData& found) {
+    if (!keeps_endpoints_) return;
     endpoints_.Add(MakeEndpoint(writes, found.guid, found.topic_name.to_string(),
                                 found.type_name.to_string(), found.partition, found.reliability,
-                                found.durability, found.deadline, found.liveliness));
+                                found.durability, found.deadline, found.liveliness,
+                                found.ownership));
   }
 #endif
 
+  bool keeps_endpoints_ = false;
   EndpointQueue endpoints_;
   std::atomic<bool> has_found_any_{false};
   std::atomic<std::uint32_t> dropped_{0};
@@ -360,10 +379,17 @@ class ForwardingTransport : public transport::ChainingTransport {
 inline constexpr std::uint32_t kStatusBytesBeforePackets = 888;
 inline constexpr std::uint32_t kStatusBytesBeforeHeap = 1264;  // and those of its accounts
 inline constexpr std::uint32_t kAccountBytes = 9 * 4;
+// With heap_bytes, which is aligned behind the encapsulation header.
+constexpr std::uint32_t StatusBytesBeforeEndpoints(std::uint32_t accounts) {
+  constexpr std::uint32_t kHeader = 4;
+  const std::uint32_t before = kStatusBytesBeforeHeap + kAccountBytes * accounts - kHeader;
+  return kHeader + (before + 7) / 8 * 8 + 8;
+}
 inline bool IsOfOlderWriter(const wire::Status& read, std::uint32_t bytes) {
   const auto accounts = static_cast<std::uint32_t>(read.accounts().size());
   return bytes == kStatusBytesBeforePackets ||
-         bytes == kStatusBytesBeforeHeap + kAccountBytes * accounts;
+         bytes == kStatusBytesBeforeHeap + kAccountBytes * accounts ||
+         bytes == StatusBytesBeforeEndpoints(accounts);
 }
 
 // A generated type that is always deserialized. By default the library loans its network buffer for

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <mutex>
 #include <optional>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -16,7 +17,9 @@
 #include "services/link/fastdds/topics.h"
 #include "services/link/packet_filter/ask_pace.h"
 #include "services/link/packet_filter/discovery_list.h"
+#include "services/link/packet_filter/fragment_store.h"
 #include "services/link/packet_filter/lease_watch.h"
+#include "services/link/packet_filter/submessage_check.h"
 
 namespace giveway::link {
 namespace {
@@ -26,6 +29,10 @@ using std::chrono::steady_clock;
 // Counted on the library's threads, read on the loop's. One for all participants: services have
 // one.
 std::array<std::atomic<std::uint64_t>, kPacketDrops> counted{};
+
+void Count(PacketDrop drop) {
+  counted[static_cast<std::size_t>(drop)].fetch_add(1, std::memory_order_relaxed);
+}
 
 std::uint64_t RandomSeed() {
   std::uint64_t seed = 0;
@@ -43,6 +50,25 @@ std::uint32_t Ipv4Of(const rtps::Locator_t& locator) {
   return address;
 }
 
+// A receiving thread that had to wait for a packet lets more of them gather. One that finds a
+// packet there takes it at once, so that it never falls behind.
+void LetPacketsGather(steady_clock::time_point came) {
+  constexpr std::chrono::microseconds kWaited(50);  // the library needs less between two packets
+  constexpr std::chrono::milliseconds kGather(40);
+  thread_local steady_clock::time_point ready;  // for this packet
+  if (came - ready > kWaited) std::this_thread::sleep_for(kGather);
+  ready = steady_clock::now();
+}
+
+// Operators' orders and their answers come in fragments, of which a tool asks for all at once, and
+// what another vendor cuts into pieces.
+std::size_t FragmentBytes(const PacketFilterOptions& options) {
+  constexpr std::size_t kAtOnce = 8;
+  constexpr std::size_t kStrangersASample = 4;
+  const std::size_t samples = kAtOnce + options.fleet_size + options.strangers / kStrangersASample;
+  return samples * options.largest_sample;
+}
+
 struct FilteredDescriptor final : transport::ChainingTransportDescriptor {
   FilteredDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> below,
                      const FilteredTransportOptions& of_participant)
@@ -57,7 +83,8 @@ class FilteredTransport final : public ForwardingTransport {
   explicit FilteredTransport(const FilteredDescriptor& descriptor)
       : ForwardingTransport(descriptor),
         descriptor_(descriptor),
-        filter_(descriptor.options.filter) {}
+        filter_(descriptor.options.filter),
+        fragments_(FragmentBytes(descriptor.options.filter)) {}
 
   // The library asks for it at every turn: null ends the process.
   transport::TransportDescriptorInterface* get_configuration() override { return &descriptor_; }
@@ -76,6 +103,7 @@ class FilteredTransport final : public ForwardingTransport {
   bool send(rtps::SenderResource* below, GIVEWAY_SENT bytes, std::uint32_t size,
             rtps::LocatorsIterator* from, rtps::LocatorsIterator* to,
             const std::chrono::steady_clock::time_point& timeout) override {
+    HearOwn(FirstBytes(bytes, size));
     const std::optional<PrefixBytes> asked = AskedParticipant(PacedBytes(bytes, size));
     if (asked.has_value() && !MayAsk(*asked)) return true;
     return ForwardingTransport::send(below, bytes, size, from, to, timeout);
@@ -85,27 +113,52 @@ class FilteredTransport final : public ForwardingTransport {
   void receive(transport::TransportReceiverInterface* receiver, const rtps::octet* bytes,
                std::uint32_t size, const rtps::Locator_t& local,
                const rtps::Locator_t& remote) override {
-    std::optional<Farewell> farewell;
-    const PacketVerdict verdict = Examine({bytes, size}, Ipv4Of(remote), &farewell);
-    counted[static_cast<std::size_t>(verdict.drop)].fetch_add(1, std::memory_order_relaxed);
-    if (verdict.drop != PacketDrop::kNone) return;
-    std::vector<rtps::octet> announcement;  // the few packets of discovery are copied
-    if (verdict.announces) {
-      announcement.assign(bytes, bytes + verdict.bytes);
-      HideTypes(announcement);
-      ShortenLeases(announcement, PacketFilter::kLongestLease);
-      bytes = announcement.data();
-    }
-    receiver->OnDataReceived(bytes, static_cast<std::uint32_t>(verdict.bytes), local, remote);
-    if (farewell.has_value()) {
-      receiver->OnDataReceived(farewell->data(), static_cast<std::uint32_t>(farewell->size()),
-                               local, remote);
-    }
+    const steady_clock::time_point came = steady_clock::now();
+    HandOnIfSound(receiver, bytes, size, local, remote);
+    if (descriptor_.options.lets_packets_gather) LetPacketsGather(came);
   }
 
  private:
+  void HandOnIfSound(transport::TransportReceiverInterface* receiver, const rtps::octet* bytes,
+                     std::uint32_t size, const rtps::Locator_t& local,
+                     const rtps::Locator_t& remote) {
+    const auto hand_on = [&](Bytes packet) {
+      receiver->OnDataReceived(packet.data(), static_cast<std::uint32_t>(packet.size()), local,
+                               remote);
+    };
+    Additional additional;
+    const PacketVerdict verdict = Examine({bytes, size}, Ipv4Of(remote), &additional);
+    Count(verdict.drop);
+    if (verdict.drop != PacketDrop::kNone) return;
+    Bytes packet(bytes, verdict.bytes);
+    OwnedPacket copy;  // of the few packets of discovery, and of those with fragments
+    if (verdict.has_fragments) {
+      for (const OwnedPacket& whole : additional.whole) hand_on(whole);
+      packet = copy = WithoutFragments(packet);
+      if (copy.empty()) return;
+    }
+    if (verdict.announces || verdict.has_long_gaps) {
+      if (!verdict.has_fragments) copy.assign(packet.begin(), packet.end());
+      if (verdict.announces) {
+        HideTypes(copy);
+        ShortenLeases(copy, kLongestLease);
+      }
+      if (verdict.has_long_gaps) {
+        ShortenGaps(copy);
+        Count(PacketDrop::kRangeTooLong);
+      }
+      packet = copy;
+    }
+    hand_on(packet);
+    if (additional.farewell.has_value()) hand_on(*additional.farewell);
+  }
+  // What is handed on besides a packet.
+  struct Additional {
+    std::vector<OwnedPacket> whole;  // samples that its fragments complete
+    std::optional<Farewell> farewell;
+  };
   // Only the port that announcements reach has the reader of farewells.
-  PacketVerdict Examine(Bytes packet, std::uint32_t source, std::optional<Farewell>* farewell) {
+  PacketVerdict Examine(Bytes packet, std::uint32_t source, Additional* additional) {
     const SteadyTime now(steady_clock::now().time_since_epoch());
     const std::scoped_lock lock(mutex_);
     const PacketVerdict verdict = filter_.Check(packet, source, now);
@@ -113,9 +166,18 @@ class FilteredTransport final : public ForwardingTransport {
     const Bytes sound = packet.first(verdict.bytes);
     ask_pace_.Hear(sound);
     if (descriptor_.options.says_farewell && leases_.Hear(sound, now)) {
-      *farewell = leases_.TakeFarewell(now);
+      additional->farewell = leases_.TakeFarewell(now);
+      if (additional->farewell.has_value()) filter_.EndParticipants(*additional->farewell);
+    }
+    if (verdict.has_fragments) {
+      additional->whole = fragments_.Take(sound, filter_.Participants());
     }
     return verdict;
+  }
+  void HearOwn(Bytes sent) {
+    if (!AcknowledgesDiscovery(sent)) return;
+    const std::scoped_lock lock(mutex_);
+    filter_.HearOwn(sent);
   }
   bool MayAsk(const PrefixBytes& participant) {
     const SteadyTime now(steady_clock::now().time_since_epoch());
@@ -125,9 +187,10 @@ class FilteredTransport final : public ForwardingTransport {
 
   FilteredDescriptor descriptor_;
   std::mutex mutex_;
-  PacketFilter filter_;  // guarded by mutex_
-  LeaseWatch leases_;    // guarded by mutex_
-  AskPace ask_pace_;     // guarded by mutex_
+  PacketFilter filter_;      // guarded by mutex_
+  LeaseWatch leases_;        // guarded by mutex_
+  AskPace ask_pace_;         // guarded by mutex_
+  FragmentStore fragments_;  // guarded by mutex_
 };
 
 transport::TransportInterface* FilteredDescriptor::create_transport() const {

@@ -22,6 +22,7 @@ struct FilteredTransportOptions {
   // Of participants whose lease is nearly over; false where they are found by a server, or reach
   // this one past the transport.
   bool says_farewell = true;
+  bool lets_packets_gather = false;  // as LinkOptions
 };
 
 // `below` is UDPv4, or a chain of transports that ends in it.

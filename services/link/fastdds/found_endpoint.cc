@@ -97,6 +97,9 @@ std::string Misfit(const FoundEndpoint& writer, const FoundEndpoint& reader) {
   add(writer.liveliness >= reader.liveliness, "liveliness",
       NameOf(writer.liveliness, kLivelinesses), NameOf(reader.liveliness, kLivelinesses));
   add(writer.lease_ns <= reader.lease_ns, "lease", Text(writer.lease_ns), Text(reader.lease_ns));
+  const auto ownership = [](bool exclusive) { return exclusive ? "EXCLUSIVE" : "SHARED"; };
+  add(writer.exclusive == reader.exclusive, "ownership", ownership(writer.exclusive),
+      ownership(reader.exclusive));
   return text;
 }
 

@@ -24,6 +24,7 @@ struct FoundEndpoint {
   int liveliness = 0;                   // automatic, manual by participant, by topic
   std::int64_t deadline_ns = kEndless;
   std::int64_t lease_ns = kEndless;
+  bool exclusive = false;  // its ownership; else shared
 };
 
 // Whether both are of one participant.
@@ -32,7 +33,8 @@ bool HasPartition(const FoundEndpoint& endpoint);
 // As DDS has it: names or wildcards of one against names of the other; of two wildcards none.
 bool PartitionsMatch(const FoundEndpoint& a, const FoundEndpoint& b);
 // Every policy of which the writer offers less than the reader requests, or an other type, in
-// words; empty if there is none. Partitions apart.
+// words; empty if there is none. Partitions apart, and positive acknowledgements, which no profile
+// of a fleet turns off.
 std::string Misfit(const FoundEndpoint& writer, const FoundEndpoint& reader);
 
 // Whose DDS it is, by the first bytes of a GUID; "vendor 0x0107" if it is none of the known.

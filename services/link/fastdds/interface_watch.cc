@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/link/fastdds/link_options.h"
+
 namespace giveway::link {
 namespace {
 
+// An index of 0 is not known: the system had no socket left to ask with.
+bool SameDevice(unsigned a, unsigned b) { return a == b || a == 0 || b == 0; }
+
 bool Same(const Interface& a, const Interface& b) {
-  return a.name == b.name && a.address == b.address && a.index == b.index;
+  return a.name == b.name && a.address == b.address && SameDevice(a.index, b.index);
 }
 
 bool IsAmong(const std::vector<Interface>& list, const Interface& one) {
@@ -53,7 +58,11 @@ InterfaceWatch::InterfaceWatch(std::string interface)
     : interface_(std::move(interface)), before_(Ipv4Interfaces()) {}
 
 std::string InterfaceWatch::Change() const {
-  return ChangeOf(interface_, before_, Ipv4Interfaces());
+  try {
+    return ChangeOf(interface_, before_, Ipv4Interfaces());
+  } catch (const LinkError&) {  // no descriptor left, perhaps: that must not end the process
+    return "";
+  }
 }
 
 }  // namespace giveway::link

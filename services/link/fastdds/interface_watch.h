@@ -20,6 +20,7 @@ class InterfaceWatch {
  public:
   // Notes what there is now.
   explicit InterfaceWatch(std::string interface);
+  // Empty, too, while the system does not list its interfaces: it is asked again.
   std::string Change() const;
 
  private:

@@ -14,7 +14,7 @@ struct Interface {
   bool up = true;
   bool loopback = false;
   bool says_multicast = true;  // its flag; a loopback has none and carries multicast all the same
-  unsigned index = 0;          // the kernel's; one that is made again has another
+  unsigned index = 0;          // the kernel's, another if it is made again; 0: not known
 };
 
 // Throws LinkError.

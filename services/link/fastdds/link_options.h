@@ -31,6 +31,12 @@ struct LinkOptions {
   // Readers request neither a deadline nor a lease, whatever the profile set says: the library then
   // sets no timer with every sample that comes.
   bool requests_no_times = false;
+  // Observers: statuses are requested best effort. A reliable reader answers each of them, and one
+  // that was lost is worth little: the next counts on from it.
+  bool requests_status_once = false;
+  // Of a process that looks at what came now and then, and not at once: it receives packets several
+  // at a time, up to 40 ms late. Waking for each of them costs more than what is in them.
+  bool lets_packets_gather = false;
   // Only the profile set's UDP is left. Set once the files of shared memory were deleted: the
   // library removes files by name as participants end, and would remove new files of the same name.
   bool leaves_out_shared_memory = false;

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "services/link/fastdds/link_options.h"
@@ -38,7 +37,11 @@ QosProfiles ReadProfileFile(const std::string& file) {
   if (!stream) {
     throw LinkError("QoS file " + file + ": " + std::strerror(errno) + "; check its permissions");
   }
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  std::string text(kMaxFileBytes, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad()) throw LinkError("QoS file " + file + ": cannot be read to its end");
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  text.shrink_to_fit();
   return {file, std::move(text)};
 }
 

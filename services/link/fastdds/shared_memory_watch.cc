@@ -1,12 +1,9 @@
 #include "services/link/fastdds/shared_memory_watch.h"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string_view>
 #include <system_error>
 
@@ -25,25 +22,6 @@ bool IsDeletedLock(std::string_view file) {
     if (file.size() != start.size() + kDigits + kEnd.size()) continue;
     const std::string_view name = file.substr(start.size(), kDigits);
     return name.find_first_not_of("0123456789abcdef") == std::string_view::npos;
-  }
-  return false;
-}
-
-std::uint64_t InodeOf(const std::string& file) {
-  struct stat found {};
-  return ::stat(file.c_str(), &found) == 0 ? found.st_ino : 0;
-}
-
-// What each process has in its memory, as far as this one may read it.
-bool AnyHoldsDeleted(const std::set<std::string>& files) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  for (fs::directory_iterator at("/proc", error), end; !error && at != end; at.increment(error)) {
-    if (at->path().filename().string().find_first_not_of("0123456789") != std::string::npos)
-      continue;
-    std::ifstream maps(at->path() / "maps");
-    const std::string text{std::istreambuf_iterator<char>(maps), {}};
-    if (HoldsDeleted(text, files)) return true;
   }
   return false;
 }
@@ -84,23 +62,25 @@ bool HoldsDeleted(const std::string& maps, const std::set<std::string>& files) {
   });
 }
 
-// Other processes are looked at only where a port has another file than before: at the start, and
-// where the library has replaced one.
-bool SharedMemoryWatch::IsPortReplaced(const std::vector<std::string>& open_files) {
-  const std::set<std::string> files = PortsOf(open_files);
-  std::set<std::pair<std::string, std::uint64_t>> ports;
-  for (const std::string& file : files) ports.emplace(file, InodeOf(file));
-  if (ports == ports_) return false;
-  ports_ = std::move(ports);
-  return AnyHoldsDeleted(files);
+bool AnyHoldsDeleted(const std::filesystem::path& processes, const std::set<std::string>& files) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  for (fs::directory_iterator at(processes, error), end; !error && at != end; at.increment(error)) {
+    if (at->path().filename().string().find_first_not_of("0123456789") != std::string::npos)
+      continue;
+    std::ifstream maps(at->path() / "maps");
+    for (std::string line; std::getline(maps, line);) {
+      if (HoldsDeleted(line + '\n', files)) return true;
+    }
+  }
+  return false;
 }
 
-bool SharedMemoryWatch::IsGone() {
-  const SteadyTime now(std::chrono::steady_clock::now().time_since_epoch());
-  if (gone_ || now < next_) return gone_;
-  next_ = now + std::chrono::seconds(1);
+bool SharedMemoryWatch::IsGone(SteadyTime now) {
+  if (gone_ || (next_ && now < *next_)) return gone_;
   const std::vector<std::string> open_files = LinksIn("/proc/self/fd");
-  gone_ = IsSegmentGone(open_files) || IsPortReplaced(open_files);
+  gone_ = IsSegmentGone(open_files) || (!next_ && AnyHoldsDeleted("/proc", PortsOf(open_files)));
+  next_ = now + std::chrono::seconds(1);
   return gone_;
 }
 

@@ -89,7 +89,12 @@ PrefixBytes BytesOf(const rtps::GuidPrefix_t& prefix) {
 
 void NamingListener::OnWriter(Change change, const rtps::GUID_t& writer,
                               const std::vector<std::string>& partitions) {
-  if (change == Change::kFound) impairer_->OnWriter(BytesOf(writer.guidPrefix), partitions);
+  const PrefixBytes process = BytesOf(writer.guidPrefix);
+  if (change == Change::kFound) {
+    impairer_->OnWriter(process, partitions);
+  } else {
+    impairer_->OnWriterGone(process, partitions);
+  }
   next_.OnWriter(change, writer, partitions);
 }
 

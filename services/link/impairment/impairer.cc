@@ -10,8 +10,11 @@ namespace {
 // RTPS header: "RTPS", version (2), vendor (2), GUID prefix (12).
 constexpr std::size_t kPrefixAt = 8;
 constexpr std::array<std::uint8_t, 4> kMagic = {'R', 'T', 'P', 'S'};
-// Later senders share one channel: the prefixes of forged headers must not fill the memory.
-constexpr std::size_t kMaxSenders = 4096;
+constexpr std::size_t kMaxNamed = 4096;
+// Heard before they were named; apart from the named, since any packet has a prefix, and those of
+// forged headers must neither fill the memory nor keep a vehicle from being identified. Later ones
+// share a channel until they are named.
+constexpr std::uint32_t kMaxUnknown = 4096;
 
 // All zero, which no participant has, for what is no RTPS packet.
 PrefixBytes PrefixOf(std::span<const std::uint8_t> packet) {
@@ -57,15 +60,37 @@ void Impairer::OnWriter(const PrefixBytes& process, const std::vector<std::strin
   const Sender named = NamedBy(partitions);
   if (named.kind == Sender::Kind::kUnknown) return;
   const std::scoped_lock lock(mutex_);
-  if (senders_.contains(process) || senders_.size() < kMaxSenders) senders_[process] = named;
+  if (!named_.contains(process) && !MakeRoom()) return;
+  named_[process] = {named, 0};
+  unknown_.erase(process);
 }
 
-const Sender& Impairer::SenderOf(const PrefixBytes& process) {
-  static const Sender kShared;
-  const auto found = senders_.find(process);
-  if (found != senders_.end()) return found->second;
-  if (senders_.size() >= kMaxSenders) return kShared;
-  return senders_[process] = {Sender::Kind::kUnknown, ++unknown_};
+void Impairer::OnWriterGone(const PrefixBytes& process,
+                            const std::vector<std::string>& partitions) {
+  if (NamedBy(partitions).kind == Sender::Kind::kUnknown) return;
+  const std::scoped_lock lock(mutex_);
+  const auto known = named_.find(process);
+  if (known != named_.end()) known->second.gone = ++gone_;
+}
+
+// In the place of the one whose writer is gone longest. False if all are there.
+bool Impairer::MakeRoom() {
+  if (named_.size() < kMaxNamed) return true;
+  const auto longest = std::ranges::min_element(
+      named_, {}, [](const auto& named) { return named.second.gone - 1; });  // 0 last: it wraps
+  if (longest->second.gone == 0) return false;
+  named_.erase(longest);
+  return true;
+}
+
+Sender Impairer::SenderOf(const PrefixBytes& process) {
+  const auto named = named_.find(process);
+  if (named != named_.end()) return named->second.sender;
+  const auto unknown = unknown_.find(process);
+  if (unknown != unknown_.end()) return {Sender::Kind::kUnknown, unknown->second};
+  if (numbers_ == kMaxUnknown) return {};
+  unknown_[process] = ++numbers_;
+  return {Sender::Kind::kUnknown, numbers_};
 }
 
 PacketFate Impairer::Decide(std::span<const std::uint8_t> packet, SteadyTime now) {
@@ -94,7 +119,7 @@ ImpairmentCounters Impairer::CountersOf(VehicleId sender) const {
 
 std::size_t Impairer::Senders() const {
   const std::scoped_lock lock(mutex_);
-  return senders_.size();
+  return named_.size() + unknown_.size();
 }
 
 }  // namespace giveway::link

@@ -32,8 +32,11 @@ class Impairer {
   void Start(SteadyTime now);
   std::optional<SteadyTime> Started() const;
   // A discovered writer identifies its process: a vehicle by its beacon writer in `<area>/v<id>`,
-  // the world by any in `world`. Once identified, it stays so permanently.
+  // the world by any in `world`. Once identified it stays so, also when the writer is gone: of a
+  // vehicle that is cut off, so that its lease ends, nothing must come through. Only where there
+  // are too many does one whose writer is gone give its place to another.
   void OnWriter(const PrefixBytes& process, const std::vector<std::string>& partitions);
+  void OnWriterGone(const PrefixBytes& process, const std::vector<std::string>& partitions);
 
   PacketFate Decide(std::span<const std::uint8_t> packet, SteadyTime now);
   void NoteAbandoned(std::size_t packets);
@@ -43,13 +46,20 @@ class Impairer {
   std::size_t Senders() const;  // distinguished so far
 
  private:
-  const Sender& SenderOf(const PrefixBytes& process);
+  struct Named {
+    Sender sender;
+    std::uint64_t gone = 0;  // 1, 2, 3 ... in the order in which their writers went; 0: it is there
+  };
+  Sender SenderOf(const PrefixBytes& process);
+  bool MakeRoom();
 
   mutable std::mutex mutex_;  // guards all that follows
   ChannelModel model_;
   std::optional<PrefixBytes> own_;
-  std::map<PrefixBytes, Sender> senders_;
-  std::uint32_t unknown_ = 0;  // processes that were heard before they were named
+  std::map<PrefixBytes, Named> named_;
+  std::uint64_t gone_ = 0;                        // writers, so far
+  std::map<PrefixBytes, std::uint32_t> unknown_;  // heard before they were named: 1, 2, 3 ...
+  std::uint32_t numbers_ = 0;                     // given to those
   std::uint64_t abandoned_ = 0;
 };
 

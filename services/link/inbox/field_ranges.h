@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "services/types/fleet_limits.h"
 #include "services/types/math/math.h"
 #include "services/types/refusal.h"
 
@@ -17,7 +18,9 @@ class FieldRanges {
       fault_ = FieldFault{field, value, least, most};
     }
   }
-  void HoldPlace(const char* field, double value_m) { Hold(field, value_m, -kFar_m, kFar_m); }
+  void HoldPlace(const char* field, double value_m) {
+    Hold(field, value_m, -kMaxCoordinate_m, kMaxCoordinate_m);
+  }
   void HoldBearing(const char* field, double value_rad) {
     Hold(field, value_rad, -kPi - kRounding_rad, kPi + kRounding_rad);
   }
@@ -30,7 +33,6 @@ class FieldRanges {
   const std::optional<FieldFault>& Fault() const { return fault_; }
 
  private:
-  static constexpr double kFar_m = 100'000;
   static constexpr double kRounding_rad = 1e-9;
   static constexpr double kCounted_rad = 1e9;  // thirty years at full speed
   static constexpr double kRate_rad_s = 1e4;

@@ -13,6 +13,7 @@ constexpr std::array<std::uint8_t, 4> kListener = {0x00, 0x01, 0x00, 0xc7};
 
 constexpr std::uint16_t kLeaseDuration = 0x0002;  // ids of parameters
 constexpr std::uint16_t kParticipantGuid = 0x0050;
+constexpr std::uint16_t kEndpointGuid = 0x005a;
 constexpr std::size_t kLeaseBytes = 8;
 constexpr std::size_t kGuidBytes = 16;
 constexpr std::uint8_t kKeyHash = 0x70;
@@ -26,6 +27,19 @@ bool StandsOnceAtMost(const Submessage& list, std::uint16_t id, std::size_t byte
   if (first.size() != bytes) return false;
   const auto behind = static_cast<std::size_t>(first.data() - list.body.data()) + Padded(bytes);
   return FindParameter(list, behind, id).data() == nullptr;
+}
+
+// Whether each parameter of that id in a sound list has the value that is wanted. `wanted`, where
+// it is empty, becomes the first one's.
+bool AllAre(const Submessage& list, std::uint16_t id, Bytes* wanted) {
+  for (std::size_t from = 0;;) {
+    const Bytes value = FindParameter(list, from, id);
+    if (value.data() == nullptr) return true;
+    if (value.size() != kGuidBytes) return false;
+    if (wanted->empty()) *wanted = value;
+    if (!std::ranges::equal(value, *wanted)) return false;
+    from = static_cast<std::size_t>(value.data() - list.body.data()) + value.size();
+  }
 }
 
 // Its lease, in the byte order of its list: seconds, and a fraction in units of 2^-32.
@@ -47,6 +61,20 @@ template <std::size_t size>
 std::size_t Put(const std::array<std::uint8_t, size>& bytes, std::size_t at, Farewell* to) {
   std::copy_n(bytes.begin(), size, to->begin() + static_cast<std::ptrdiff_t>(at));
   return at + size;
+}
+
+std::optional<EndpointGuid> GuidIn(Bytes found) {
+  EndpointGuid guid;
+  if (found.size() != guid.size()) return std::nullopt;
+  std::ranges::copy(found, guid.begin());
+  return guid;
+}
+
+std::optional<EndpointGuid> NamedInPayload(const Submessage& of_endpoint) {
+  const std::optional<Submessage> list = ParametersOf(of_endpoint);
+  if (!list) return std::nullopt;
+  const Bytes guid = FindParameter(*list, 0, kEndpointGuid);
+  return GuidIn(guid.empty() ? FindParameter(*list, 0, kKeyHash) : guid);
 }
 
 // High word first, each in big-endian order.
@@ -79,6 +107,12 @@ bool IsAnnouncement(const Submessage& submessage) {
          std::equal(kAnnouncer.begin(), kAnnouncer.end(), submessage.body.begin() + kWriterInData);
 }
 
+bool IsFarewell(const Submessage& announcement) {
+  constexpr std::size_t kStatusBytes = 4;
+  const Bytes status = FindInlineParameter(announcement, kStatusInfo);
+  return status.size() == kStatusBytes && status[3] >= 1 && status[3] <= kDisposedAndUnregistered;
+}
+
 bool IsUnambiguous(const Submessage& announcement) {
   const std::optional<Submessage> list = ParametersOf(announcement);
   if (!list) return true;
@@ -86,6 +120,31 @@ bool IsUnambiguous(const Submessage& announcement) {
   return StandsOnceAtMost(*list, kParticipantGuid, kGuidBytes) && NamesNoOtherEntity(*list) &&
          StandsOnceAtMost(*list, kLeaseDuration, kLeaseBytes) &&
          (no_hash || !announcement.Has(kWithData));  // with a key it is a farewell
+}
+
+bool NamesOneEndpoint(const Submessage& of_endpoint) {
+  const std::optional<Submessage> list = ParametersOf(of_endpoint);
+  Bytes guid;
+  return !list || (AllAre(*list, kEndpointGuid, &guid) && AllAre(*list, kKeyHash, &guid));
+}
+
+std::optional<EndpointGuid> AnnouncedEndpoint(const Submessage& of_endpoint) {
+  return of_endpoint.Has(kWithData) ? NamedInPayload(of_endpoint) : std::nullopt;
+}
+
+// Fast DDS names it in the inline QoS, and sends no payload.
+std::optional<EndpointGuid> EndedEndpoint(const Submessage& of_endpoint) {
+  if (of_endpoint.Has(kWithData)) return std::nullopt;
+  const auto inline_key = GuidIn(FindInlineParameter(of_endpoint, kKeyHash));
+  return inline_key ? inline_key : NamedInPayload(of_endpoint);
+}
+
+std::optional<PrefixBytes> EndedParticipant(const Submessage& farewell) {
+  const Bytes hash = FindInlineParameter(farewell, kKeyHash);
+  if (hash.size() != kGuidBytes) return AnnouncedParticipant(farewell);
+  PrefixBytes prefix;
+  std::copy_n(hash.begin(), prefix.size(), prefix.begin());
+  return prefix;
 }
 
 std::optional<PrefixBytes> AnnouncedParticipant(const Submessage& announcement) {

@@ -49,9 +49,9 @@ class ValueWalk {
     if (!ValueWalk(*this).Number(&bytes) || !Sequence(1)) return false;
     return bytes > 0 && value_.body[first + bytes - 1] == 0;
   }
-  bool Strings() {
+  bool Strings(std::uint32_t most) {
     std::uint32_t count = 0;
-    if (!Number(&count)) return false;
+    if (!Number(&count) || count > most) return false;
     for (; count > 0; --count) {
       if (!StringWithEnd()) return false;
     }
@@ -87,7 +87,7 @@ PacketDrop CheckParameter(std::uint16_t id, const Submessage& value, bool secure
       fits = walk.Sequence(1);
       break;
     case 0x0029:  // partitions
-      fits = walk.Strings();
+      fits = walk.Strings(kMostPartitions);
       break;
     case 0x0059:
       fits = walk.Properties();
@@ -109,10 +109,16 @@ PacketDrop CheckParameter(std::uint16_t id, const Submessage& value, bool secure
   return fits ? PacketDrop::kNone : PacketDrop::kListTooLong;
 }
 
+bool DescribesType(std::uint16_t id) {
+  return id == 0x0069 || id == 0x0072 || id == 0x0075;  // identifier, object, information
+}
+
 // In the byte order of `list`, which starts with the first parameter.
 PacketDrop CheckList(const Submessage& list, bool secured) {
   Submessage value;
   value.flags = list.flags;
+  std::size_t listed = 0;
+  std::size_t described = 0;
   for (std::size_t at = 0; at + kParameterHeader <= list.body.size();) {
     const std::uint16_t id = list.U16(at);
     const std::size_t length = list.U16(at + 2);
@@ -122,13 +128,11 @@ PacketDrop CheckList(const Submessage& list, bool secured) {
     value.body = list.body.subspan(at, length);
     const PacketDrop drop = CheckParameter(id, value, secured);
     if (drop != PacketDrop::kNone) return drop;
+    (DescribesType(id) ? described : listed) += kParameterHeader + Padded(length);
+    if (listed > kMostListed || described > kMostDescribed) return PacketDrop::kListTooLong;
     at += Padded(length);
   }
   return PacketDrop::kListTooLong;
-}
-
-bool DescribesType(std::uint16_t id) {
-  return id == 0x0069 || id == 0x0072 || id == 0x0075;  // identifier, object, information
 }
 
 // `packet` holds the list.
@@ -155,9 +159,10 @@ PacketDrop CheckDiscovery(const Submessage& of_discovery, bool secured) {
   if (of_discovery.kind == SubmessageKind::kDataFrag) return PacketDrop::kFragmentedAnnouncement;
   const std::optional<Submessage> list = ParametersOf(of_discovery);
   const PacketDrop drop = list ? CheckList(*list, secured) : PacketDrop::kNone;
-  const bool ambiguous =
-      drop == PacketDrop::kNone && IsAnnouncement(of_discovery) && !IsUnambiguous(of_discovery);
-  return ambiguous ? PacketDrop::kMalformed : drop;
+  if (drop != PacketDrop::kNone) return drop;
+  const bool unambiguous =
+      IsAnnouncement(of_discovery) ? IsUnambiguous(of_discovery) : NamesOneEndpoint(of_discovery);
+  return unambiguous ? PacketDrop::kNone : PacketDrop::kMalformed;
 }
 
 void HideTypes(std::span<std::uint8_t> packet) {

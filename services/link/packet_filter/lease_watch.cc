@@ -28,7 +28,9 @@ void LeaseWatch::Note(const PrefixBytes& sender, const Submessage& announcement,
   }
   if (*participant != sender) return;  // a discovery server speaks for it
   if (!participants_.contains(sender)) MakeRoom();
-  participants_[sender] = {now, *lease, AnnouncementNumber(announcement)};
+  // As the library will hear it: the packet is shortened behind this watch.
+  const Nanoseconds shortened = std::min<Nanoseconds>(*lease, kLongestLease);
+  participants_[sender] = {now, shortened, AnnouncementNumber(announcement)};
 }
 
 void LeaseWatch::MakeRoom() {

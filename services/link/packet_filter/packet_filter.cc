@@ -26,13 +26,11 @@ constexpr std::size_t kWritersAVehicle = 48;
 constexpr std::size_t kWritersAtLeast = 4096;
 constexpr std::size_t kWritersAtMost = 131072;
 
-// Where a writer's entity id and the number by which it goes stand in other bodies.
-constexpr std::size_t kWriterAt = 4;  // of HEARTBEAT and GAP
-constexpr std::size_t kLastNumberAt = 16;
-constexpr std::size_t kCountInHeartbeat = 24;
+// Where the number by which a writer goes, and other counts, stand in other bodies.
+constexpr std::size_t kStartAt = 8;         // of a GAP
+constexpr std::size_t kLastNumberAt = 16;   // of HEARTBEAT and GAP
 constexpr std::size_t kBitsInAckNack = 16;  // how many; the bits, and behind them the count
 constexpr std::size_t kBitsInNackFrag = 20;
-constexpr std::size_t kPrefixInInfoSrc = 8;
 
 bool IsRtps(Bytes packet) {
   return packet.size() > kRtpsHeaderBytes &&
@@ -82,18 +80,13 @@ WriterGuid CounterGuid(const Submessage& submessage, const std::uint8_t* prefix)
   return guid;
 }
 
-// New participants that may come at once: all of a fleet, twice, and strangers.
-std::int64_t AtOnce(const PacketFilterOptions& options) {
-  return options.strangers + 2 * std::int64_t{options.fleet_size};
-}
-
 }  // namespace
 
 PacketFilter::PacketFilter(const PacketFilterOptions& options)
     : options_(options),
       writers_(options.writers != 0 ? options.writers : WritersOf(options.fleet_size), options.seed,
                options.fleet_size, options.of_all_bodies),
-      tokens_(AtOnce(options)) {}
+      participants_(options.strangers, options.fleet_size) {}
 
 PacketVerdict PacketFilter::Check(Bytes packet, std::uint32_t source, SteadyTime now) {
   if (options_.loopback_only && !IsLoopback(source)) return {PacketDrop::kForeignSource};
@@ -107,7 +100,9 @@ PacketVerdict PacketFilter::Check(Bytes packet, std::uint32_t source, SteadyTime
 // By itself, whatever came before.
 PacketVerdict PacketFilter::CheckParts(Bytes packet) const {
   const bool ours = std::equal(kEProsima.begin(), kEProsima.end(), packet.begin() + kVendorAt);
-  bool announces = false;
+  PacketVerdict verdict{PacketDrop::kNone, packet.size()};
+  std::int64_t skipped = 0;  // by GAPs of users' writers
+  bool has_gaps_of_order = false;
   SubmessageWalk walk(packet);
   Submessage part;
   while (walk.Next(&part)) {
@@ -117,7 +112,8 @@ PacketVerdict PacketFilter::CheckParts(Bytes packet) const {
                               part.body.size() == kStatisticsBytes;
       const bool alone = walk.Start() == kRtpsHeaderBytes;
       if (!as_written || alone) return {PacketDrop::kStatistics};
-      return {PacketDrop::kNone, walk.Start(), announces};
+      verdict.bytes = walk.Start();
+      return verdict;
     }
     // To the library another vendor's own kinds are nothing.
     if (!ours && kind >= static_cast<std::uint8_t>(SubmessageKind::kVendorFirst)) continue;
@@ -125,30 +121,61 @@ PacketVerdict PacketFilter::CheckParts(Bytes packet) const {
         part.kind >= SubmessageKind::kSecureFirst && part.kind <= SubmessageKind::kSecureLast;
     if (options_.secured && secure) continue;
     PacketDrop drop = CheckSubmessage(part, options_.largest_sample);
-    if (drop == PacketDrop::kNone && IsOfDiscovery(part)) {
-      announces = true;
+    const bool is_long_gap = drop == PacketDrop::kRangeTooLong;  // and sound but for that
+    if (drop != PacketDrop::kNone && !is_long_gap) return {drop};
+    if (IsOfDiscovery(part)) {
+      verdict.announces = true;
       drop = CheckDiscovery(part, options_.secured);
     }
+    if (part.kind == SubmessageKind::kGap) {
+      if (IsOfDiscoveryOrder(part)) {
+        has_gaps_of_order = true;
+      } else {
+        skipped += part.SequenceNumber(kLastNumberAt) - part.SequenceNumber(kStartAt);
+        drop = PacketDrop::kNone;
+      }
+    }
     if (drop != PacketDrop::kNone) return {drop};
+    verdict.has_long_gaps |= skipped > kLongestGap;
+    verdict.has_fragments |= part.kind == SubmessageKind::kDataFrag;
   }
-  return {walk.IsBroken() ? PacketDrop::kListTooLong : PacketDrop::kNone, packet.size(), announces};
+  if (walk.IsBroken()) return {PacketDrop::kListTooLong};
+  // What is shortened must not be what the window of a discovery writer counts in full: a sender
+  // has one writer a packet, or discovery's alone.
+  if (verdict.has_long_gaps && has_gaps_of_order) return {PacketDrop::kRangeTooLong};
+  return verdict;
 }
 
 // By what is known of the writers it is from.
 PacketDrop PacketFilter::CheckWriters(Bytes packet, SteadyTime now) {
-  const std::uint8_t* prefix = packet.data() + kSenderAt;
+  PacketContext context(packet);
+  bool is_ordered = false;
+  bool says_farewell = false;
   SubmessageWalk walk(packet);
   Submessage part;
   while (walk.Next(&part)) {
-    if (part.kind == SubmessageKind::kInfoSrc) prefix = part.body.data() + kPrefixInInfoSrc;
-    const PacketDrop drop = CheckWriter(part, prefix, now);
+    context.Note(part);
+    is_ordered |= IsOfDiscoveryOrder(part);
+    const PacketDrop drop = CheckWriter(part, context, now);
     if (drop != PacketDrop::kNone) return drop;
-    if (!IsNextCount(part, prefix, now)) return PacketDrop::kSequenceJump;
+    if (!IsNextCount(part, context.source, now)) return PacketDrop::kSequenceJump;
+    says_farewell |= IsAnnouncement(part) && IsFarewell(part);
   }
-  return PacketDrop::kNone;
+  const PacketDrop drop = is_ordered ? order_.Check(packet, now) : PacketDrop::kNone;
+  if (says_farewell && drop == PacketDrop::kNone) EndParticipants(packet);
+  return drop;
 }
 
-PacketDrop PacketFilter::CheckWriter(const Submessage& submessage, const std::uint8_t* prefix,
+void PacketFilter::EndParticipants(Bytes packet) {
+  SubmessageWalk walk(packet);
+  Submessage part;
+  while (walk.Next(&part)) {
+    if (!IsAnnouncement(part) || !IsFarewell(part)) continue;
+    if (const auto ended = EndedParticipant(part)) participants_.End(*ended);
+  }
+}
+
+PacketDrop PacketFilter::CheckWriter(const Submessage& submessage, const PacketContext& context,
                                      SteadyTime now) {
   const bool is_data =
       submessage.kind == SubmessageKind::kData || submessage.kind == SubmessageKind::kDataFrag;
@@ -156,15 +183,19 @@ PacketDrop PacketFilter::CheckWriter(const Submessage& submessage, const std::ui
   if (!is_data && !is_gap && submessage.kind != SubmessageKind::kHeartbeat)
     return PacketDrop::kNone;
   const std::uint8_t* const entity = submessage.body.data() + (is_data ? kWriterInData : kWriterAt);
-  if (IsAnnouncement(submessage) && !IsWelcome(submessage, now)) {
-    return PacketDrop::kTooManyStrangers;
+  if (IsAnnouncement(submessage)) {
+    const PacketDrop drop = CheckAnnouncement(submessage, context, now);
+    if (drop != PacketDrop::kNone) return drop;
   }
   std::int64_t number = submessage.SequenceNumber(is_data ? kNumberInData : kLastNumberAt);
   if (is_gap) --number;                       // the last one that will not come
   if (number <= 0) return PacketDrop::kNone;  // a writer that has written nothing
   const Statement by = is_data ? Statement::kSample : Statement::kRange;
-  const bool plausible = writers_.IsPlausible(GuidOf(prefix, entity), number, by, now);
-  return plausible ? PacketDrop::kNone : PacketDrop::kSequenceJump;
+  if (!writers_.IsPlausible(GuidOf(context.source, entity), number, by, now)) {
+    return PacketDrop::kSequenceJump;
+  }
+  const bool may_add = !IsOfDiscovery(submessage) || MayAdd(submessage, now);
+  return may_add ? PacketDrop::kNone : PacketDrop::kTooManyEndpoints;
 }
 
 // The library ignores each HEARTBEAT, ACKNACK and NACK_FRAG whose count is not above all before:
@@ -177,31 +208,25 @@ bool PacketFilter::IsNextCount(const Submessage& submessage, const std::uint8_t*
   return writers_.IsPlausible(CounterGuid(submessage, prefix), count, Statement::kCount, now);
 }
 
-// An announcement of a participant that is known, or of a new one while there is space. A discovery
-// server sends those of others: it is the payload that names the participant.
-bool PacketFilter::IsWelcome(const Submessage& announcement, SteadyTime now) {
-  const std::optional<PrefixBytes> prefix = AnnouncedParticipant(announcement);
-  if (!prefix.has_value()) return true;  // of one that leaves: announces no participant
-  const WriterGuid participant = GuidOf(prefix->data(), kParticipantEntity.data());
-  if (writers_.Knows(participant, now)) return true;
-  if (!TakeToken(now)) return false;
-  writers_.Add(participant, now);
-  return true;
+// A discovery server sends the announcements of others: it is the payload that names the
+// participant or endpoint. Of each source of them the library keeps a record too, before it reads
+// their names; of a farewell only where it knows the participant.
+PacketDrop PacketFilter::CheckAnnouncement(const Submessage& announcement,
+                                           const PacketContext& context, SteadyTime now) {
+  if (IsFarewell(announcement)) return PacketDrop::kNone;
+  const std::optional<PrefixBytes> named = AnnouncedParticipant(announcement);
+  if (!named || !announcement.Has(kWithData)) return PacketDrop::kMalformed;
+  const PrefixBytes source = context.Source();
+  const bool may_join = participants_.MayJoin(source, now) &&
+                        (*named == source || participants_.MayJoin(*named, now));
+  return may_join ? PacketDrop::kNone : PacketDrop::kTooManyStrangers;
 }
 
-bool PacketFilter::TakeToken(SteadyTime now) {
-  constexpr Nanoseconds kApart =
-      std::chrono::nanoseconds(std::chrono::seconds(1)) / kStrangersPerSecond;
-  const std::int64_t most = AtOnce(options_);
-  if (token_due_ == SteadyTime{0}) token_due_ = now + kApart;
-  if (now >= token_due_) {
-    const std::int64_t due = 1 + (now - token_due_) / kApart;
-    tokens_ = std::min(most, tokens_ + std::min(due, most));
-    token_due_ += due * kApart;
-  }
-  if (tokens_ == 0) return false;
-  --tokens_;
-  return true;
+bool PacketFilter::MayAdd(const Submessage& of_discovery, SteadyTime now) {
+  if (IsAnnouncement(of_discovery)) return true;  // of no endpoint
+  if (const auto ended = EndedEndpoint(of_discovery)) participants_.Remove(*ended);
+  const std::optional<EndpointGuid> endpoint = AnnouncedEndpoint(of_discovery);
+  return !endpoint.has_value() || participants_.MayAdd(*endpoint, now);
 }
 
 }  // namespace giveway::link

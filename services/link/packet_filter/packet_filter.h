@@ -11,6 +11,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "services/link/packet_filter/discovery_order.h"
+#include "services/link/packet_filter/packet_context.h"
+#include "services/link/packet_filter/participant_table.h"
 #include "services/link/packet_filter/rtps_bytes.h"
 #include "services/link/packet_filter/writer_table.h"
 #include "services/types/figures/packet_counters.h"
@@ -34,34 +37,41 @@ struct PacketVerdict {
   // Of a packet that is handed on: so many bytes of it. The library's own statistics submessage,
   // which ends each packet it sends, is left out: reading it can end a process.
   std::size_t bytes = 0;
-  bool announces = false;  // it holds what discovery says: see HideTypes
+  bool announces = false;      // it holds what discovery says: see HideTypes
+  bool has_long_gaps = false;  // more than the library may step through: see ShortenGaps
+  bool has_fragments = false;  // none of which the library may see: see FragmentStore
 };
 
 class PacketFilter {
  public:
-  // New participants after the first ones; and how long one may be silent at most, whatever it
-  // announces. Of strangers that fall silent the library so knows 480 and the first ones at most.
-  static constexpr std::int64_t kStrangersPerSecond = 4;
-  static constexpr std::chrono::seconds kLongestLease{120};
-
   explicit PacketFilter(const PacketFilterOptions& options);
 
   // `source`: the sender's IPv4 address, first octet highest. Calls come in the order of `now`, or
   // nearly.
   PacketVerdict Check(Bytes packet, std::uint32_t source, SteadyTime now);
+  // Of a farewell that the library is given in the name of a dead participant.
+  void EndParticipants(Bytes packet);
+  const ParticipantTable& Participants() const { return participants_; }
+  // A packet that this process sends, where AcknowledgesDiscovery says so.
+  void HearOwn(Bytes sent) { order_.HearOwn(sent); }
+  // Its parts refer to each other.
+  PacketFilter(const PacketFilter&) = delete;
+  PacketFilter& operator=(const PacketFilter&) = delete;
 
  private:
   PacketVerdict CheckParts(Bytes packet) const;
   PacketDrop CheckWriters(Bytes packet, SteadyTime now);
-  PacketDrop CheckWriter(const Submessage& submessage, const std::uint8_t* prefix, SteadyTime now);
+  PacketDrop CheckWriter(const Submessage& submessage, const PacketContext& context,
+                         SteadyTime now);
   bool IsNextCount(const Submessage& submessage, const std::uint8_t* prefix, SteadyTime now);
-  bool IsWelcome(const Submessage& announcement, SteadyTime now);
-  bool TakeToken(SteadyTime now);
+  PacketDrop CheckAnnouncement(const Submessage& announcement, const PacketContext& context,
+                               SteadyTime now);
+  bool MayAdd(const Submessage& of_discovery, SteadyTime now);
 
   PacketFilterOptions options_;
   WriterTable writers_;
-  std::int64_t tokens_;  // for new participants
-  SteadyTime token_due_{0};
+  ParticipantTable participants_;
+  DiscoveryOrder order_{participants_};
 };
 
 }  // namespace giveway::link

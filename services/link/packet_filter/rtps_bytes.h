@@ -2,6 +2,7 @@
 // the next, just as Fast DDS takes it. Reads nothing beyond the packet. Formats: OMG RTPS 2.3, 9.4.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -10,6 +11,7 @@
 namespace giveway::link {
 
 using Bytes = std::span<const std::uint8_t>;
+using PrefixBytes = std::array<std::uint8_t, 12>;  // of a participant's GUID
 
 inline constexpr std::size_t kRtpsHeaderBytes = 20;
 inline constexpr std::size_t kSenderAt = 8;  // in the header: the prefix of the sender
@@ -24,6 +26,9 @@ inline constexpr std::size_t kNumberInData = 12;
 inline constexpr std::uint8_t kInlineQos = 0x02;
 inline constexpr std::uint8_t kWithData = 0x04;  // of DATA alone
 inline constexpr std::uint8_t kWithKey = 0x08;   // of DATA alone
+
+inline constexpr std::size_t kWriterAt = 4;  // of HEARTBEAT, GAP, ACKNACK and NACK_FRAG
+inline constexpr std::size_t kCountInHeartbeat = 24;
 
 // A list of parameters: each has a header of id and length, and starts at a multiple of 4.
 inline constexpr std::size_t kParameterHeader = 4;  // bytes

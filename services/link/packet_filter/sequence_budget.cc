@@ -11,11 +11,12 @@ constexpr double kDisputedRate_hz = 2;
 
 }  // namespace
 
-SequenceBudget::SequenceBudget(std::int64_t number, SteadyTime now)
+SequenceBudget::SequenceBudget(std::int64_t number, SteadyTime now, const Limits& limits)
     : highest_(number),
       started_(now),
       advanced_(now),
       heard_(now),
+      budget_(limits.are_shared ? limits.least : kYoungSlack),
       window_number_(number),
       window_began_(now) {}
 
@@ -29,7 +30,7 @@ bool SequenceBudget::Takes(std::int64_t number, SteadyTime now, const Limits& li
   const double step = static_cast<double>(number - highest_);
   const double budget = std::min(budget_, most) + Added(heard_, now);
   const bool is_free = step <= 1 && (limits.may_grow || IsYoung(now));
-  if (!is_free && step > budget) return Confirms(number, now);
+  if (!is_free && step > budget) return Confirms(number, now, limits);
   budget_ = std::clamp(is_free ? budget : budget - step, 0.0, most);
   highest_ = number;
   advanced_ = heard_ = now;
@@ -79,12 +80,13 @@ void SequenceBudget::TakeBehind(std::int64_t number, SteadyTime now, double slac
 }
 
 // Whether that is how its numbers go now: it has kept to it.
-bool SequenceBudget::Confirms(std::int64_t number, SteadyTime now) {
+bool SequenceBudget::Confirms(std::int64_t number, SteadyTime now, const Limits& limits) {
+  const double rate_hz = limits.are_shared ? kHighestRate_hz : kLeastRate_hz;
   const double since_s = Seconds(now - candidate_heard_);
-  const bool goes_on =
-      candidate_ != 0 && number >= candidate_ &&
-      static_cast<double>(number - candidate_) <= kYoungSlack + kLeastRate_hz * since_s;
+  const bool goes_on = candidate_ != 0 && number >= candidate_ &&
+                       static_cast<double>(number - candidate_) <= kYoungSlack + rate_hz * since_s;
   if (!goes_on) {
+    first_candidate_ = number;
     candidate_since_ = now;
     confirmations_ = 0;
   }
@@ -92,7 +94,10 @@ bool SequenceBudget::Confirms(std::int64_t number, SteadyTime now) {
   candidate_heard_ = now;
   ++confirmations_;
   if (confirmations_ < kConfirmations || now - candidate_since_ < kConfirmTime) return false;
-  *this = SequenceBudget(number, now);
+  const double pace_hz =
+      static_cast<double>(number - first_candidate_) / Seconds(now - candidate_since_);
+  *this = SequenceBudget(number, now, limits);
+  if (limits.are_shared) pace_hz_ = last_window_hz_ = pace_hz;
   return true;
 }
 

@@ -14,7 +14,8 @@
 // writer, whose readers skip what lies behind.
 //
 // A writer whose numbers really did jump is believed once it has kept to its new numbers for
-// kConfirmTime and said nothing by the former ones.
+// kConfirmTime and said nothing by the former ones. Numbers of which only some reach this process
+// may step far meanwhile, and the budget fills by how fast they did from then on.
 #pragma once
 
 #include <cstdint>
@@ -30,6 +31,7 @@ class SequenceBudget {
     double seconds = 0.5;      // of the writer's pace
     bool sends_again = false;  // lower numbers, as a matter of course
     bool may_grow = false;     // steps of one are free at any rate, as while a writer is young
+    bool are_shared = false;   // most of its numbers go to others: the slack is there at once
 
     double SlackAt(double pace_hz) const {
       return pace_hz * seconds > least ? pace_hz * seconds : least;
@@ -48,7 +50,7 @@ class SequenceBudget {
 
   SequenceBudget() = default;
   // At the first number of a writer, whatever it is.
-  SequenceBudget(std::int64_t number, SteadyTime now);
+  SequenceBudget(std::int64_t number, SteadyTime now, const Limits& limits);
 
   // Whether the writer can have reached `number`, which is above 0; notes it if so. Times go up.
   bool Takes(std::int64_t number, SteadyTime now, const Limits& limits);
@@ -64,7 +66,7 @@ class SequenceBudget {
   double Added(SteadyTime since, SteadyTime now) const;
   void Learn(SteadyTime now);
   void TakeBehind(std::int64_t number, SteadyTime now, double slack);
-  bool Confirms(std::int64_t number, SteadyTime now);
+  bool Confirms(std::int64_t number, SteadyTime now, const Limits& limits);
 
   std::int64_t highest_ = 0;     // believed
   SteadyTime started_{0};        // when the first number came, or the last confirmed jump
@@ -77,6 +79,7 @@ class SequenceBudget {
   SteadyTime window_began_{0};
   SteadyTime disputed_until_{0};
   std::int64_t candidate_ = 0;  // of numbers beyond the plausible ones; 0: none
+  std::int64_t first_candidate_ = 0;
   SteadyTime candidate_since_{0};
   SteadyTime candidate_heard_{0};
   std::uint32_t confirmations_ = 0;

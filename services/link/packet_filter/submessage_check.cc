@@ -1,6 +1,8 @@
 #include "services/link/packet_filter/submessage_check.h"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <optional>
 
 namespace giveway::link {
@@ -46,9 +48,7 @@ std::optional<std::size_t> EndOfInlineQos(const Submessage& data, std::size_t fi
 // No writer of a fleet evaluates the filters of readers. The library takes a sample so marked into
 // a history before it is asked, where one of an invented key evicts others.
 bool IsMarked(const Submessage& data) {
-  if (!data.Has(kInlineQos)) return false;
-  const std::size_t qos = kBehindToQos + data.U16(kToQosAt);
-  return FindParameter(data, qos, kFilterInfo).data() != nullptr;
+  return FindInlineParameter(data, kFilterInfo).data() != nullptr;
 }
 
 constexpr std::size_t kDataFields = 20;
@@ -65,49 +65,29 @@ PacketDrop CheckData(const Submessage& data) {
   return too_short || IsMarked(data) ? PacketDrop::kMalformed : PacketDrop::kNone;
 }
 
-constexpr std::size_t kIndexBytes = 4;
-constexpr std::uint16_t kLeastFragment = 8;  // an index, and what it is aligned by, at most 3
-
-// What a DATA_FRAG says of its place in the sample.
-struct Fragments {
-  std::uint32_t first;   // from 1
-  std::uint16_t count;   // in this submessage
-  std::uint16_t bytes;   // of each but the sample's last
-  std::uint32_t sample;  // bytes
-};
-
-// The bytes that these fragments are of their sample; 0 where they are not of it.
-std::uint64_t BytesOf(const Fragments& fragments) {
-  if (fragments.first == 0 || fragments.count == 0 || fragments.bytes == 0) return 0;
-  const std::uint64_t before = (fragments.first - std::uint64_t{1}) * fragments.bytes;
-  const std::uint64_t wanted = std::uint64_t{fragments.count} * fragments.bytes;
-  if (before >= fragments.sample) return 0;
-  const std::uint64_t left = fragments.sample - before;
+// The bytes that these are of their sample; 0 where they are not of it.
+std::uint64_t BytesOf(const Fragment& fragment) {
+  if (fragment.first == 0 || fragment.count == 0 || fragment.fragment_bytes == 0) return 0;
+  const std::uint64_t before = (fragment.first - std::uint64_t{1}) * fragment.fragment_bytes;
+  const std::uint64_t wanted = std::uint64_t{fragment.count} * fragment.fragment_bytes;
+  if (before >= fragment.sample_bytes) return 0;
+  const std::uint64_t left = fragment.sample_bytes - before;
   // All but the last fragment must be whole.
-  return wanted < left + fragments.bytes ? std::min(wanted, left) : 0;
-}
-
-// CVE-2025-62799: until a sample is whole, the library keeps an index of 4 bytes where each of its
-// fragments will be, at the next multiple of 4. It must not reach into the next one's, whose bytes
-// are written over it, nor beyond the sample.
-bool IndexesFit(const Fragments& fragments) {
-  if (fragments.bytes < kLeastFragment) return false;
-  const std::uint64_t last = (fragments.sample - std::uint64_t{1}) / fragments.bytes;
-  return Padded(last * fragments.bytes) + kIndexBytes <= fragments.sample;
+  return wanted < left + fragment.fragment_bytes ? std::min(wanted, left) : 0;
 }
 
 PacketDrop CheckDataFrag(const Submessage& frag, std::uint32_t largest_sample) {
   if (frag.body.size() < kDataFragFields || frag.Has(kFragOfKey)) return PacketDrop::kMalformed;
   if (!IsNumber(frag.SequenceNumber(kNumberInData))) return PacketDrop::kMalformed;
-  const Fragments fragments{frag.U32(20), frag.U16(24), frag.U16(26), frag.U32(28)};
-  if (fragments.sample > largest_sample) return PacketDrop::kSampleTooLarge;
-  if (fragments.sample < kLeastFragmented) return PacketDrop::kMalformed;
+  const Fragment fragment = FragmentOf(frag);
+  if (fragment.sample_bytes > largest_sample) return PacketDrop::kSampleTooLarge;
+  if (fragment.sample_bytes < kLeastFragmented) return PacketDrop::kMalformed;
+  if (fragment.fragment_bytes < kLeastFragment) return PacketDrop::kMalformed;
   const auto payload = EndOfInlineQos(frag, kDataFragFields);
   if (!payload) return PacketDrop::kListTooLong;
-  const std::uint64_t wanted = BytesOf(fragments);
+  const std::uint64_t wanted = BytesOf(fragment);
   const std::size_t there = frag.body.size() - *payload;
-  const bool fits = wanted > 0 && there >= wanted && there <= Padded(wanted) &&
-                    IndexesFit(fragments) && !IsMarked(frag);
+  const bool fits = wanted > 0 && there >= wanted && there <= Padded(wanted) && !IsMarked(frag);
   return fits ? PacketDrop::kNone : PacketDrop::kMalformed;
 }
 
@@ -128,13 +108,18 @@ PacketDrop CheckBits(const Submessage& of, std::size_t at, std::size_t behind) {
   return end <= of.body.size() ? PacketDrop::kNone : PacketDrop::kListTooLong;
 }
 
+constexpr std::size_t kStartOfGapAt = 8;
+constexpr std::size_t kBaseOfGapAt = 16;
+constexpr std::size_t kBitsOfGapAt = 24;
+
 PacketDrop CheckGap(const Submessage& gap) {
   if (gap.body.size() < 28) return PacketDrop::kMalformed;
-  const std::int64_t start = gap.SequenceNumber(8);
-  const std::int64_t base = gap.SequenceNumber(16);
+  const std::int64_t start = gap.SequenceNumber(kStartOfGapAt);
+  const std::int64_t base = gap.SequenceNumber(kBaseOfGapAt);
   if (!IsNumber(start) || !IsNumber(base) || base < start) return PacketDrop::kMalformed;
-  if (base - start > kLongestGap) return PacketDrop::kRangeTooLong;
-  return CheckBits(gap, 24, 0);
+  const PacketDrop drop = CheckBits(gap, kBitsOfGapAt, 0);
+  if (drop != PacketDrop::kNone) return drop;
+  return base - start > kLongestGap ? PacketDrop::kRangeTooLong : PacketDrop::kNone;
 }
 
 PacketDrop CheckAckNack(const Submessage& acknack) {
@@ -144,9 +129,15 @@ PacketDrop CheckAckNack(const Submessage& acknack) {
   return CheckBits(acknack, 16, 4);
 }
 
+// From the fragment that is asked for, which it never compares with the sample, the library
+// computes where to read: of fragment 0, 4 GB behind the sample. Nor may the bits reach 0 again.
+constexpr std::uint32_t kHighestFragment = std::uint32_t{1} << 31U;
+
 PacketDrop CheckNackFrag(const Submessage& nack) {
   if (nack.body.size() < 28) return PacketDrop::kMalformed;
   if (!IsNumber(nack.SequenceNumber(8))) return PacketDrop::kMalformed;
+  const std::uint32_t first = nack.U32(16);
+  if (first == 0 || first > kHighestFragment) return PacketDrop::kMalformed;
   return CheckBits(nack, 20, 4);
 }
 
@@ -195,6 +186,44 @@ PacketDrop CheckSubmessage(const Submessage& submessage, std::uint32_t largest_s
   }
 }
 
+void ShortenGaps(std::span<std::uint8_t> packet) {
+  std::int64_t left = kLongestGap;
+  SubmessageWalk walk(packet);
+  Submessage part;
+  while (walk.Next(&part)) {
+    if (part.kind != SubmessageKind::kGap) continue;
+    const std::int64_t start = part.SequenceNumber(kStartOfGapAt);
+    const std::int64_t numbers = part.SequenceNumber(kBaseOfGapAt) - start;
+    if (numbers <= left) {
+      left -= numbers;
+      continue;
+    }
+    const auto base = static_cast<std::uint64_t>(start + left);
+    left = 0;
+    const std::size_t base_at = walk.Start() + kSubmessageHeaderBytes + kBaseOfGapAt;
+    const std::array<std::uint32_t, 3> words = {static_cast<std::uint32_t>(base >> 32U),
+                                                static_cast<std::uint32_t>(base), 0};  // no bits
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      const std::uint32_t word = part.IsLittleEndian() ? words[i] : __builtin_bswap32(words[i]);
+      std::memcpy(packet.data() + base_at + i * sizeof word, &word, sizeof word);
+    }
+  }
+}
+
+Fragment FragmentOf(const Submessage& frag) {
+  return {.number = frag.SequenceNumber(kNumberInData),
+          .first = frag.U32(20),
+          .count = frag.U16(24),
+          .sample_bytes = frag.U32(28),
+          .fragment_bytes = frag.U16(26)};
+}
+
+InlineAndPayload PartsOfFragment(const Submessage& frag) {
+  const std::size_t qos = kBehindToQos + frag.U16(kToQosAt);
+  const std::size_t payload = EndOfInlineQos(frag, kDataFragFields).value_or(frag.body.size());
+  return {frag.body.subspan(qos, payload - qos), frag.body.subspan(payload)};
+}
+
 std::size_t PayloadOfData(const Submessage& data) {
   return EndOfInlineQos(data, kDataFields).value_or(data.body.size());
 }
@@ -222,6 +251,11 @@ Bytes FindParameter(const Submessage& submessage, std::size_t list, std::uint16_
     list += Padded(length);
   }
   return {};
+}
+
+Bytes FindInlineParameter(const Submessage& data, std::uint16_t id) {
+  if (!data.Has(kInlineQos)) return {};
+  return FindParameter(data, kBehindToQos + data.U16(kToQosAt), id);
 }
 
 }  // namespace giveway::link

@@ -24,7 +24,9 @@ WriterTable::WriterTable(std::size_t writers, std::uint64_t seed, std::uint32_t 
                          bool of_all_bodies)
     : lines_(std::bit_ceil(std::max(writers, kWays))),
       seed_(seed | 1),
-      count_limits_{.least = kCountsAtLeast + kCountsAVehicle * fleet_size, .seconds = 0.5} {
+      count_limits_{.least = kCountsAtLeast + kCountsAVehicle * fleet_size,
+                    .seconds = 0.5,
+                    .are_shared = true} {
   sample_limits_.may_grow = of_all_bodies;
 }
 
@@ -66,14 +68,14 @@ bool WriterTable::IsPlausible(const WriterGuid& writer, std::int64_t number, Sta
   if (line == nullptr) {
     line = &Insert(writer, now);
     line->is_reliable = by == Statement::kRange;
-    line->budget = SequenceBudget(number <= kMostAtFirst ? number : 0, now);
+    line->budget = SequenceBudget(number <= kMostAtFirst ? number : 0, now, LimitsOf(*line, by));
     if (number <= kMostAtFirst) return true;
   }
   if (line->packets != std::numeric_limits<std::uint32_t>::max()) ++line->packets;
   line->heard = now;
   if (Takes(line, number, by, now)) return true;
   if (number > kMostAtFirst || !IsNew(*line, by, now)) return false;
-  line->budget = SequenceBudget(number, now);
+  line->budget = SequenceBudget(number, now, LimitsOf(*line, by));
   return true;
 }
 
@@ -82,26 +84,22 @@ bool WriterTable::IsNew(const Line& line, Statement by, SteadyTime now) {
   return now - line.met <= (has_heartbeats ? kAcquaintance : kAcquaintanceOfSamples);
 }
 
+const SequenceBudget::Limits& WriterTable::LimitsOf(const Line& line, Statement by) const {
+  if (by == Statement::kCount) return count_limits_;
+  return line.is_reliable ? kReliableLimits : sample_limits_;
+}
+
 bool WriterTable::Takes(Line* line, std::int64_t number, Statement by, SteadyTime now) const {
-  if (by == Statement::kCount) return line->budget.Takes(number, now, count_limits_);
+  if (by == Statement::kCount) return line->budget.Takes(number, now, LimitsOf(*line, by));
   if (by == Statement::kRange && IsNew(*line, by, now)) line->is_reliable = true;
   if (line->is_reliable || by == Statement::kRange) {
     const std::int64_t known = line->budget.Highest();
     if (number - known > (known == 0 ? kMostOfOld : kMostAtFirst)) return false;
   }
-  if (line->is_reliable) return line->budget.Takes(number, now, kReliableLimits);
-  if (by == Statement::kRange) return line->budget.MayReach(number, now, kRangeLimits);
-  return line->budget.Takes(number, now, sample_limits_);
+  if (by == Statement::kRange && !line->is_reliable) {
+    return line->budget.MayReach(number, now, kRangeLimits);
+  }
+  return line->budget.Takes(number, now, LimitsOf(*line, by));
 }
-
-bool WriterTable::Knows(const WriterGuid& writer, SteadyTime now) {
-  Line* const line = Find(writer);
-  if (line == nullptr) return false;
-  line->heard = now;
-  if (line->packets != std::numeric_limits<std::uint32_t>::max()) ++line->packets;
-  return true;
-}
-
-void WriterTable::Add(const WriterGuid& writer, SteadyTime now) { Insert(writer, now); }
 
 }  // namespace giveway::link

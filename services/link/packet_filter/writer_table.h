@@ -53,18 +53,15 @@ class WriterTable {
   static constexpr std::uint32_t kKnown = 16;
 
   // Holds at least so many writers. `seed` decides where a writer is kept: strangers must not
-  // know it. A process is sent HEARTBEATs between those that its writers send to others, so
-  // `fleet_size` decides how far their counts step. `of_all_bodies`: it receives samples of every
-  // body of the fleet from one writer, and of more with each that joins.
+  // know it. A process is sent HEARTBEATs and ACKNACKs between those that a peer sends to others,
+  // which it counts alike: `fleet_size` decides how far counts step at once. `of_all_bodies`: it
+  // receives samples of every body of the fleet from one writer, and of more with each that joins.
   WriterTable(std::size_t writers, std::uint64_t seed, std::uint32_t fleet_size = 0,
               bool of_all_bodies = false);
 
   // Whether the writer can have reached `number`, which is above 0. Notes it if so. Counts are
   // kept under GUIDs of their own.
   bool IsPlausible(const WriterGuid& writer, std::int64_t number, Statement by, SteadyTime now);
-  // Whether it is in the table; noted as heard if so.
-  bool Knows(const WriterGuid& writer, SteadyTime now);
-  void Add(const WriterGuid& writer, SteadyTime now);
   std::size_t Capacity() const { return lines_.size(); }
 
  private:
@@ -83,6 +80,7 @@ class WriterTable {
   Line& Insert(const WriterGuid& writer, SteadyTime now);
   static bool IsNew(const Line& line, Statement by, SteadyTime now);
   bool Takes(Line* line, std::int64_t number, Statement by, SteadyTime now) const;
+  const SequenceBudget::Limits& LimitsOf(const Line& line, Statement by) const;
 
   std::vector<Line> lines_;  // sets of kWays
   std::uint64_t seed_;

@@ -2,17 +2,24 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
+#include <filesystem>
+#include <map>
 #include <optional>
+#include <system_error>
 
 #include "services/runtime/whole_file.h"
 
 namespace giveway {
 namespace {
+
+namespace fs = std::filesystem;
 
 // OUT.mcap and 3: OUT-0003.mcap.
 std::string PartPath(const std::string& path, std::uint32_t part) {
@@ -20,6 +27,39 @@ std::string PartPath(const std::string& path, std::uint32_t part) {
   const bool ends = path.ends_with(kEnding);
   return fmt::format("{}-{:04}{}", path.substr(0, path.size() - (ends ? kEnding.size() : 0)), part,
                      kEnding);
+}
+
+// The 3 of PartPath; nothing where the file is no part.
+std::optional<std::uint32_t> NumberOfPart(const std::string& path, const fs::path& file) {
+  const std::string name = file.filename();
+  const std::size_t dash = name.rfind('-');
+  if (dash == std::string::npos) return std::nullopt;
+  std::uint32_t number = 0;
+  std::from_chars(name.data() + dash + 1, name.data() + name.size(), number);
+  const bool is_part = number > 0 && name == fs::path(PartPath(path, number)).filename();
+  return is_part ? std::optional(number) : std::nullopt;
+}
+
+// Paths of the parts in the folder, by their numbers.
+std::map<std::uint32_t, std::string> PartsOf(const std::string& path) {
+  std::map<std::uint32_t, std::string> parts;
+  const fs::path folder = fs::path(path).parent_path();
+  std::error_code error;
+  for (fs::directory_iterator file(folder.empty() ? "." : folder, error), end;
+       !error && file != end; file.increment(error)) {
+    if (const auto number = NumberOfPart(path, *file)) parts[*number] = PartPath(path, *number);
+  }
+  return parts;
+}
+
+// A recorder locks the part it writes, for as long as it lives.
+bool IsBeingWritten(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool locked = ::flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(file);
+  errno = EBUSY;
+  return locked;
 }
 
 }  // namespace
@@ -47,13 +87,27 @@ bool CaptureFiles::Append(std::string_view bytes) {
   return true;
 }
 
+// A recorder that was restarted continues after the parts that are there, and they count as kept.
+bool CaptureFiles::FindEarlierParts() {
+  for (const auto& [number, path] : PartsOf(options_.path)) {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(path, error);
+    closed_.emplace_back(path, error ? 0 : size);
+    part_ = earlier_parts_ = number;
+    part_path_ = path;
+  }
+  return closed_.empty() || !IsBeingWritten(part_path_) || Fail("another recorder writes it");
+}
+
 bool CaptureFiles::Open(SteadyTime now) {
+  if (part_ == 0 && HasParts() && !FindEarlierParts()) return false;
   ++part_;
   part_path_ = HasParts() || part_ > 1 ? PartPath(options_.path, part_) : options_.path;
   // An existing file is another recording.
   constexpr mode_t kMode = 0644;
   file_ = ::open(part_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kMode);
   if (file_ < 0) return Fail("cannot be made");
+  ::flock(file_, LOCK_EX | LOCK_NB);  // a file system without locks records all the same
   opened_ = now;
   capture_ = std::make_unique<FleetCapture>(
       [this](std::string_view bytes) { return Append(bytes); }, qos_, options_.profile);
@@ -132,6 +186,19 @@ bool CaptureFiles::Close() {
   if (capture_ == nullptr) return fault_.empty();
   for (const std::string& path : options_.attachments) Attach(path);
   return ClosePart();
+}
+
+void CaptureFiles::Discard() {
+  capture_.reset();
+  if (file_ >= 0) {
+    ::unlink(part_path_.c_str());
+    ::close(file_);
+    file_ = -1;
+  }
+  for (const auto& [path, size] : closed_) {
+    if (NumberOfPart(options_.path, path).value_or(1) > earlier_parts_) ::unlink(path.c_str());
+  }
+  closed_.clear();
 }
 
 }  // namespace giveway

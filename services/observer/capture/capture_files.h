@@ -21,11 +21,11 @@ namespace giveway {
 inline constexpr Nanoseconds kFlushPeriod = std::chrono::milliseconds(900);
 
 struct CaptureOptions {
-  std::string path;                      // OUT.mcap; of parts OUT-0001.mcap and so on
+  std::string path;                      // OUT.mcap; of parts OUT-0001.mcap, or the next number
   std::uint64_t split_bytes = 0;         // 0: never
   Nanoseconds split_time{0};             // 0: never
   std::vector<std::string> attachments;  // files put into the last part at its end
-  std::uint64_t keep_bytes = 0;          // of all parts; 0: all are kept
+  std::uint64_t keep_bytes = 0;          // of all parts, also earlier ones; 0: all are kept
   std::string profile;                   // of MCAP; "ros2": `ros2 bag` is to take the files
   std::size_t most_chunks = 100'000;     // of a part: the index of each is in memory; a day's
 };
@@ -48,19 +48,24 @@ class CaptureFiles {
   // These, too; see CaptureOptions.
   void AttachAtEnd(const std::vector<std::string>& files);
   bool Close();
+  // Ends the recording without a last part and removes what there is of it: for one that is of no
+  // use in part. Nothing of another recording is touched.
+  void Discard();
 
   const std::string& Fault() const { return fault_; }
   // Files that were to be attached and could not be read; empty: none.
   const std::string& Missing() const { return missing_; }
   std::uint64_t Messages() const { return messages_; }
   std::uint64_t Bytes() const { return bytes_; }
-  std::uint32_t Parts() const { return part_; }
+  // Those of this recording.
+  std::uint32_t Parts() const { return part_ - earlier_parts_; }
 
  private:
   bool HasParts() const { return options_.split_bytes != 0 || options_.split_time.count() != 0; }
   bool IsPartFull(SteadyTime now) const;
   template <typename Sample>
   bool WriteNewest(const Sample& sample, std::uint64_t log_ns, SteadyTime now);
+  bool FindEarlierParts();
   bool Open(SteadyTime now);
   bool ClosePart();
   void Attach(const std::string& path);
@@ -74,7 +79,8 @@ class CaptureFiles {
   std::string part_path_;
   std::unique_ptr<FleetCapture> capture_;
   SteadyTime opened_{0};
-  std::uint32_t part_ = 0;
+  std::uint32_t part_ = 0;           // the number in the name of the newest
+  std::uint32_t earlier_parts_ = 0;  // the highest number that was there
   std::deque<std::pair<std::string, std::uint64_t>> closed_;  // paths and sizes
   std::uint64_t messages_ = 0;
   std::uint64_t bytes_ = 0;

@@ -46,10 +46,26 @@ void RunFrames::Note(const FleetView& view, SteadyTime now) {
   NoteEvents(view, now);
   DropOld(now);
   if (now < due_ || !view.Heard().IsAnyHeard()) return;
+  AddFrame(view, now);
+}
+
+void RunFrames::NoteLast(const FleetView& view, SteadyTime now) {
+  NoteEvents(view, now);
+  if (!view.Heard().IsAnyHeard()) return;
+  if (!frames_.empty() && frames_.back().at == now) DropLast();  // less was known of it then
+  AddFrame(view, now);
+}
+
+void RunFrames::AddFrame(const FleetView& view, SteadyTime now) {
   due_ = now + period_;
   frames_.push_back({now, FrameJson(view, now, 0)});
   bytes_ += frames_.back().json.size();
   if (frames_.size() > kMostFrames || bytes_ > kMostBytes) Thin();
+}
+
+void RunFrames::DropLast() {
+  bytes_ -= frames_.back().json.size();
+  frames_.pop_back();
 }
 
 void RunFrames::Thin() {
@@ -81,30 +97,80 @@ std::string RunFrames::RunJson(const std::string& scene, Opens opens) const {
   return json + "]}";
 }
 
+namespace {
+
+// The recorder's time, which only grows: its system clock may be set back while it records, and
+// what follows continues from where it was.
+class RunClock {
+ public:
+  void Hear(std::uint64_t log_ns) {
+    const SteadyTime heard{static_cast<std::int64_t>(std::min(log_ns, kLatest_ns))};
+    if (now_ - shift_ - heard > kStepBack) shift_ = now_ - heard;
+    now_ = std::max(now_, std::min(heard, kLatest - shift_) + shift_);
+  }
+  SteadyTime Now() const { return now_; }
+
+ private:
+  // A recorder that stood still writes what waited topic by topic, a status of seconds ago after a
+  // beacon of now: that is no step.
+  static constexpr Nanoseconds kStepBack = std::chrono::seconds(10);
+  static constexpr SteadyTime kLatest{static_cast<std::int64_t>(kLatest_ns)};
+
+  SteadyTime now_{0};
+  Nanoseconds shift_{0};
+};
+
+class RunReader {
+ public:
+  void Take(std::uint64_t log_ns, std::string_view topic, std::string_view sample) {
+    clock_.Hear(log_ns);
+    if (clock_.Now() - folded_ >= kStep || taken_ >= kMostPending) Fold();
+    const link::Decoded decoded = link::DecodeInto(topic, sample, &pending_);
+    if (decoded == link::Decoded::kUnreadable) ++run_.unreadable;
+    ++taken_;
+  }
+  RunRead Finish(mcap::ReadResult result) {
+    view_.Fold(pending_, clock_.Now());
+    run_.frames.NoteLast(view_, clock_.Now());
+    run_.result = std::move(result);
+    return std::move(run_);
+  }
+
+ private:
+  static constexpr Nanoseconds kStep = std::chrono::milliseconds(20);
+  // Also of one moment no more wait: a file may give all of its samples the same time. Of more
+  // events at once a view keeps only the last.
+  static constexpr std::size_t kMostPending = FleetView::kMostEvents;
+
+  // What waits came within the step that is over now.
+  void Fold() {
+    const SteadyTime now = clock_.Now();
+    const bool is_step = folded_.count() != 0 && now - folded_ >= kStep;
+    view_.Fold(pending_, is_step ? now - kStep : now);
+    pending_ = {};
+    taken_ = 0;
+    run_.frames.Note(view_, now);
+    folded_ = now;
+  }
+
+  RunRead run_;
+  FleetView view_;
+  RunClock clock_;
+  link::Observed pending_;
+  std::size_t taken_ = 0;  // messages since the last fold
+  SteadyTime folded_{0};
+};
+
+}  // namespace
+
 RunRead ReadRun(const mcap::McapReader::Source& source) {
-  RunRead run;
-  FleetView view;
-  link::Observed pending;
-  SteadyTime now{0};
-  constexpr Nanoseconds kStep = std::chrono::milliseconds(20);
-  SteadyTime folded{0};
-  run.result = mcap::McapReader::Read(
+  RunReader reader;
+  mcap::ReadResult result = mcap::McapReader::Read(
       source, [&](const mcap::Message& message, const mcap::Channel& channel, const mcap::Schema&) {
-        const SteadyTime at{static_cast<std::int64_t>(std::min(message.log_ns, kLatest_ns))};
-        if (at > now) now = at;
-        if (now - folded >= kStep) {
-          view.Fold(pending, folded.count() == 0 ? now : now - kStep);
-          pending = {};
-          run.frames.Note(view, now);
-          folded = now;
-        }
-        const link::Decoded decoded = link::DecodeInto(channel.topic, message.data, &pending);
-        if (decoded == link::Decoded::kUnreadable) ++run.unreadable;
+        reader.Take(message.log_ns, channel.topic, message.data);
         return true;
       });
-  view.Fold(pending, now);
-  run.frames.Note(view, now + std::chrono::seconds(1));
-  return run;
+  return reader.Finish(std::move(result));
 }
 
 }  // namespace giveway

@@ -21,11 +21,13 @@ class RunFrames {
   enum class Opens : std::uint8_t { kMap, kReport };  // what the page shows first
 
   RunFrames() = default;
-  // Drops what is older than this.
-  explicit RunFrames(Nanoseconds last) : last_(last) {}
+  // Drops what is older than this. Five frames a second: most of them are never looked at.
+  explicit RunFrames(Nanoseconds last) : last_(last), period_(2 * kTenth) {}
 
   // Takes the events that came since the last call, and a frame if one is due.
   void Note(const FleetView& view, SteadyTime now);
+  // The same at the end of a run: its last moment is a frame, due or not.
+  void NoteLast(const FleetView& view, SteadyTime now);
   std::size_t Size() const { return frames_.size(); }
   // {"opens":"map","scene":…,"events":[[at_ms,{…}],…],"frames":[…]}, for PageWithRun.
   std::string RunJson(const std::string& scene, Opens opens = Opens::kMap) const;
@@ -36,15 +38,19 @@ class RunFrames {
     std::string json;
   };
   void NoteEvents(const FleetView& view, SteadyTime now);
+  void AddFrame(const FleetView& view, SteadyTime now);
+  void DropLast();
   void Thin();
   void DropOld(SteadyTime now);
+
+  static constexpr Nanoseconds kTenth{100'000'000};
 
   Nanoseconds last_{0};  // 0: all of it
   std::deque<Noted> frames_;
   std::uint64_t bytes_ = 0;  // of frames_
   std::deque<Noted> events_;
   std::uint64_t events_noted_ = 0;
-  Nanoseconds period_{100'000'000};
+  Nanoseconds period_{kTenth};
   SteadyTime due_{0};
 };
 

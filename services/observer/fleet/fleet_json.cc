@@ -40,7 +40,7 @@ Json RowJson(VehicleId id, const VehicleSnapshot& heard, const VehicleView* view
   if (body != nullptr) {
     row["world_from_body"] = PoseJson(body->world_from_body);
     row["arrived"] = body->arrived;
-  } else if (heard.beacon) {
+  } else if (heard.beacon && (view == nullptr || !view->IsTakenOut())) {
     row["world_from_body"] = PoseJson(heard.beacon->world_from_body);
   }
   if (heard.beacon) {
@@ -64,7 +64,7 @@ Json RowJson(VehicleId id, const VehicleSnapshot& heard, const VehicleView* view
 Json WorldJson(const FleetView& view, SteadyTime now) {
   const WorldSnapshot& world = view.Heard().World();
   Json object;
-  object["heard"] = world.heard_at.has_value();
+  object["heard"] = world.IsHeard(now);
   if (!world.heard_at) return object;
   object["world_epoch"] = Number(world.epoch);
   if (world.state) object["run_state"] = Name(*world.state);

@@ -30,13 +30,18 @@ struct VehicleSnapshot {
   std::optional<Beacon> beacon;
   std::optional<SteadyTime> status_at;
   std::optional<SteadyTime> beacon_at;
+  bool has_body = false;  // in the world that is there now, as far as that was heard
 
   std::optional<SteadyTime> HeardAt() const;  // by either; nothing where never
   Liveness LivenessAt(SteadyTime now) const;
 };
 
 struct WorldSnapshot {
+  // True if it published something within kSilentAfter, or is there and has nothing to publish.
+  bool IsHeard(SteadyTime now) const;
+
   std::optional<SteadyTime> heard_at;
+  bool is_empty = false;  // discovery has found it, and no body is in it
   WorldEpoch epoch = kNoEpoch;
   std::optional<RunState> state;  // nothing before a roster entry or an event
   double time_s = 0;              // since the start signal
@@ -48,6 +53,11 @@ class FleetSnapshot {
  public:
   // A vehicle says something five times a second at least, and a running world twenty times.
   static constexpr SteadyTime kSilentAfter = std::chrono::seconds(1);
+
+  // One that was silent for so long, and has no body in the world, is dropped: a process that was
+  // restarted has another id, and would leave the old one silent for as long as the observer runs.
+  // Long enough for an operator to be warned of it, and to see it among the others.
+  static constexpr SteadyTime kDroppedAfter = std::chrono::minutes(5);
 
   // A process that claims ids without end takes no more; of more the one goes that was silent
   // longest.
@@ -65,13 +75,16 @@ class FleetSnapshot {
 
  private:
   void MakeRoom();
+  void DropGone(SteadyTime now);
   VehicleSnapshot& Known(VehicleId vehicle, SteadyTime now);
   void HearWorld(WorldEpoch epoch, SteadyTime now);
   void FoldTruth(const Truth& truth, SteadyTime now);
+  void FindWorld(std::uint64_t participant);
   void FoldEvent(const WorldEvent& event, SteadyTime now);
 
   std::map<VehicleId, VehicleSnapshot> vehicles_;
   WorldSnapshot world_;
+  std::uint64_t world_of_bodies_ = 0;  // the participant that was there when one was last heard of
   SteadyTime newcomer_at_{0};
 };
 

@@ -43,6 +43,8 @@ struct VehicleView {
   std::optional<Truth> truth;  // of the world that is there now
   // Null once the world has taken the body out.
   const Truth* Body() const { return truth && truth->present ? &*truth : nullptr; }
+  // True: it is nowhere, whatever its last beacon says.
+  bool IsTakenOut() const { return truth && !truth->present; }
   std::optional<RangeScan> ranges;
   SteadyTime ranges_at{0};
   FigureHistogram beacon_age;

@@ -28,17 +28,25 @@ std::int64_t AgeMs(std::optional<SteadyTime> heard_at, SteadyTime now) {
   return heard_at ? static_cast<std::int64_t>(Milliseconds(now - *heard_at)) : kNone;
 }
 
-Pose PoseOf(const VehicleSnapshot& heard, const Truth* truth) {
-  if (truth != nullptr) return truth->world_from_body;
-  return heard.beacon ? heard.beacon->world_from_body : Pose{};
-}
+struct BodyView {
+  bool is_there = false;
+  Pose world_from_body;
+  double forward_m_s = 0;
+  bool arrived = false;
+};
 
-double SpeedOf(const VehicleSnapshot& heard, const Truth* truth) {
-  if (truth != nullptr) return truth->forward_m_s;
-  if (heard.beacon) {
-    return TwistFromWheels(heard.beacon->drive, heard.beacon->wheels).forward_m_s;
+// As the world says, or where it has said nothing, as the vehicle does.
+BodyView BodyOf(const VehicleSnapshot& heard, const VehicleView* view) {
+  if (view != nullptr && view->IsTakenOut()) return {};
+  if (const Truth* truth = view != nullptr ? view->Body() : nullptr) {
+    return {true, truth->world_from_body, truth->forward_m_s, truth->arrived};
   }
-  return heard.status ? heard.status->forward_m_s : 0;
+  if (heard.beacon) {
+    const Beacon& beacon = *heard.beacon;
+    return {true, beacon.world_from_body, TwistFromWheels(beacon.drive, beacon.wheels).forward_m_s,
+            false};
+  }
+  return {.forward_m_s = heard.status ? heard.status->forward_m_s : 0};
 }
 
 // The status names the peer of a decision, the beacon comes more often.
@@ -57,17 +65,16 @@ Decision DecisionOf(const VehicleSnapshot& heard) {
 using Row = std::array<std::int64_t, kVehicleColumns.size()>;
 
 Row RowOf(VehicleId id, const VehicleSnapshot& heard, const VehicleView* view, SteadyTime now) {
-  const Truth* truth = view != nullptr ? view->Body() : nullptr;
+  const BodyView body = BodyOf(heard, view);
   const Beacon beacon = heard.beacon.value_or(Beacon{});
-  const Pose pose = PoseOf(heard, truth);
   const Decision decision = DecisionOf(heard);
   const auto reaction = view != nullptr ? view->reaction.Newest_us() : std::nullopt;
   return {
       Number(id),
-      Milli(pose.position_world.x),
-      Milli(pose.position_world.y),
-      Milli(pose.heading_rad),
-      Milli(SpeedOf(heard, truth)),
+      Milli(body.world_from_body.position_world.x),
+      Milli(body.world_from_body.position_world.y),
+      Milli(body.world_from_body.heading_rad),
+      Milli(body.forward_m_s),
       static_cast<std::int64_t>(heard.LivenessAt(now)),
       static_cast<std::int64_t>(decision.mode),
       static_cast<std::int64_t>(decision.rule),
@@ -84,10 +91,10 @@ Row RowOf(VehicleId id, const VehicleSnapshot& heard, const VehicleView* view, S
       Milli(beacon.body_radius_m),
       reaction ? static_cast<std::int64_t>(*reaction / 1000) : kNone,
       heard.status ? heard.status->peers_heard : kNone,
-      truth != nullptr && truth->arrived ? 1 : 0,
+      body.arrived ? 1 : 0,
       Milli(beacon.toward_world.x),
       Milli(beacon.toward_world.y),
-      truth != nullptr || heard.beacon ? 1 : 0,
+      body.is_there ? 1 : 0,
   };
 }
 
@@ -122,6 +129,7 @@ Json WorldJson(const WorldSnapshot& world, SteadyTime now) {
   if (world.state) object["state"] = Name(*world.state);
   object["time_ms"] = Milli(world.time_s);
   object["fleet_size"] = world.fleet_size;
+  object["heard"] = world.IsHeard(now);  // also of one that has nothing to say
   object["age_ms"] = AgeMs(world.heard_at, now);
   return object;
 }

@@ -2,7 +2,8 @@
 // programs there is fleet_json.h, in the names of fleet.idl.
 //
 //   {"at_ms":…,            the observer's steady clock
-//    "world":{"epoch":…,"state":"running","time_ms":…,"fleet_size":…,"age_ms":…},
+//    "world":{"epoch":…,"state":"running","time_ms":…,"fleet_size":…,"heard":…,
+//             "age_ms":…},
 //    "vehicles":[[…],…],   whole numbers, a row a vehicle; the columns are kVehicleColumns
 //    "ranges":{"7":[…16]}, mm from the transducer; -1 clear, -2 no data
 //    "signals":[[id,x1,y1,x2,y2,phase,to_change_ms],…],

@@ -279,7 +279,8 @@ void AddFields(const WorldEvent& event, Json* to) {
   AddId("vehicle", event.vehicle, to);
   AddId("other", event.other, to);
   if (event.vehicle != kNoVehicle) json["position_world"] = PointOf(event.position_world);
-  if (event.other != kNoVehicle) {
+  // Of a contact without another vehicle it is the point of the wall, obstacle or door.
+  if (event.other != kNoVehicle || event.kind == EventKind::kContact) {
     json["other_position_world"] = PointOf(event.other_position_world);
   }
   json["value"] = event.value;

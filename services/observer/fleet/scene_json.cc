@@ -66,6 +66,16 @@ Json VehicleJson(const VehicleOptions& vehicle) {
   return object;
 }
 
+// The one whose emission and sonar the page draws for all: the first vehicle, else the first place,
+// without a scenario a usual one.
+VehicleOptions CommonVehicle(const std::optional<Scenario>& scenario) {
+  if (scenario && !scenario->vehicles.empty()) return scenario->vehicles.front();
+  if (scenario && !scenario->spawns.empty()) return scenario->spawns.front();
+  VehicleOptions usual;
+  usual.profile = PioneerP3dx();
+  return usual;
+}
+
 void AddScenario(const Scenario& scenario, Json* scene) {
   (*scene)["scenario"] = scenario.name;
   (*scene)["walls"] = JsonArray(scenario.walls, [](const Wall& wall) {
@@ -85,17 +95,15 @@ void AddScenario(const Scenario& scenario, Json* scene) {
 std::string SceneJson(const SceneSource& source) {
   Json scene;
   scene["title"] = source.title;
+  if (!source.observer.empty()) scene["observer"] = source.observer;
   scene["columns"] = kVehicleColumns;
   scene["hearings"] = NamesUpTo(Liveness::kLeft);
   scene["modes"] = NamesUpTo(Mode::kLeaving);
-  scene["rules"] = NamesUpTo(Rule::kLeaving);
+  scene["rules"] = NamesUpTo(kLastRule);
   scene["phases"] = NamesUpTo(SignalPhase::kGreen);
-  const bool has_vehicles = source.scenario && !source.scenario->vehicles.empty();
-  const VehicleOptions usual;
-  scene["emission_radius_m"] =
-      (has_vehicles ? source.scenario->vehicles.front() : usual).emission_radius_m;
-  scene["sonar"] =
-      SonarJson(has_vehicles ? source.scenario->vehicles.front().profile : PioneerP3dx());
+  const VehicleOptions common = CommonVehicle(source.scenario);
+  scene["emission_radius_m"] = common.emission_radius_m;
+  scene["sonar"] = SonarJson(common.profile);
   if (source.scenario) AddScenario(*source.scenario, &scene);
   return JsonText(std::move(scene));
 }

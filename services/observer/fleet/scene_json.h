@@ -12,6 +12,9 @@ namespace giveway {
 struct SceneSource {
   std::string title;                 // "domain 7"
   std::optional<Scenario> scenario;  // none: no walls are shown
+  // The process that a page is connected to: what it keeps of another one is gone. Empty: it is not
+  // connected.
+  std::string observer = {};
 };
 
 std::string SceneJson(const SceneSource& source);

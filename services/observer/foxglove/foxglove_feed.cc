@@ -81,6 +81,7 @@ void FoxgloveFeed::Turn(SteadyTime now) {
   } catch (const link::LinkError& error) {  // it could not replace its participant
     link_.reset();
     open_ = 0;
+    server_.ForgetKept();  // the next one is given it again
     RetryAfter(error, now);
   }
   if (!samples.empty()) server_.Publish(std::move(samples), kept);

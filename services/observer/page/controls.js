@@ -163,6 +163,7 @@ const LEGEND = [
   ["sensor_only", "sensor only: a peer that matters is not heard or not believed"],
   ["halt", "halt: ranges are stale"], ["silent", "grey, dashed: silent, left, or never heard"],
   ["ink", "marks: arrow drives, bars wait, triangle obstacle, chevron steers round, square arrived"],
+  ["ink", "cross: lacks ranges, or does not know its place; ring: soon will not know it"],
   ["giveway", "arrow: gives way to"], ["ok", "lines: within beacon range; amber and red: beacons late"],
   ["echo", "arcs: ultrasonic echoes; cones: clear"], ["ellipse", "ellipse: believed position, 2 sigma"],
   ["bad", "ring: contact"],

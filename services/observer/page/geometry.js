@@ -47,6 +47,44 @@ function fitAll(frame) {
   view.isSet = true;
 }
 
+// What a body is: the corners of a box, anticlockwise, or the middle of a disc and its radius.
+function outlineOf({ id, x, y, heading, radius }) {
+  const box = state.boxes.get(id);
+  if (!box) return { corners: [[x, y]], radius };
+  const cos = Math.cos(heading), sin = Math.sin(heading);
+  const corners = [[1, 1], [-1, 1], [-1, -1], [1, -1]].map(([ahead, left]) => [
+    x + ahead * box[0] * cos - left * box[1] * sin, y + ahead * box[0] * sin + left * box[1] * cos]);
+  return { corners, radius: 0 };
+}
+// How far it extends from its middle.
+function reachOf({ id, radius }) { return Math.hypot(...state.boxes.get(id) ?? [radius]); }
+
+function toEdge([px, py], [ax, ay], [bx, by]) {
+  const dx = bx - ax, dy = by - ay, length = dx * dx + dy * dy;
+  const part = length > 0 ? Math.min(1, Math.max(0, ((px - ax) * dx + (py - ay) * dy) / length)) : 0;
+  return Math.hypot(px - ax - part * dx, py - ay - part * dy);
+}
+// Whether all of the other is outside of one edge of a box.
+function isBeyondAnEdge(box, other) {
+  return box.length > 1 && box.some(([ax, ay], i) => {
+    const [bx, by] = box[(i + 1) % box.length];
+    return other.every(([x, y]) => (bx - ax) * (y - ay) < (by - ay) * (x - ax));
+  });
+}
+// From hull to hull. Of boxes that overlap it is 0, of discs less.
+function gapBetween(one, other) {
+  const a = outlineOf(one), b = outlineOf(other);
+  const areBoxes = a.corners.length + b.corners.length > 2;
+  let gap_m = Infinity;
+  if (areBoxes && !isBeyondAnEdge(a.corners, b.corners) && !isBeyondAnEdge(b.corners, a.corners)) gap_m = 0;
+  for (const [points, edges] of [[a.corners, b.corners], [b.corners, a.corners]]) {
+    for (const point of points) {
+      edges.forEach((from, i) => { gap_m = Math.min(gap_m, toEdge(point, from, edges[(i + 1) % edges.length])); });
+    }
+  }
+  return gap_m - a.radius - b.radius;
+}
+
 let colours = {};
 function readColours() {
   const style = getComputedStyle(document.documentElement);
@@ -65,7 +103,8 @@ const WAITS = new Set(["give_way", "not_granted", "peer_lost", "deaf", "keep_cle
 function markOf(vehicle) {
   if (vehicle.arrived || vehicle.rule === "arrived") return "square";
   if (WAITS.has(vehicle.rule)) return "pause";
-  if (vehicle.rule === "ranges_stale") return "cross";
+  if (vehicle.rule === "ranges_stale" || vehicle.rule === "lost") return "cross";
+  if (vehicle.rule === "unsure") return "ring";
   if (["obstacle", "object"].includes(vehicle.rule)) return "triangle";
   if (["steer_round", "avoid", "make_room"].includes(vehicle.rule)) return "chevron";
   if (vehicle.rule === "not_running" || vehicle.rule === "leaving") return "dot";

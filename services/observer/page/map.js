@@ -228,6 +228,9 @@ function drawMark(g, mark, size) {
   } else if (mark === "cross") {
     g.rect(-size * 0.75, -size * 0.17, size * 1.5, size * 0.34);
     g.rect(-size * 0.17, -size * 0.75, size * 0.34, size * 1.5);
+  } else if (mark === "ring") {
+    g.arc(0, 0, size * 0.7, 0, 2 * Math.PI);
+    g.arc(0, 0, size * 0.4, 0, 2 * Math.PI, true);
   } else {
     g.arc(0, 0, size * 0.35, 0, 7);
   }
@@ -277,8 +280,7 @@ function drawContacts(g, frame) {
   for (const event of state.contacts) {
     if (event.world_epoch !== frame.world.epoch) continue;
     if (event.time_s > now_s || event.time_s < now_s - 15) continue;
-    const [x, y] = toScreen((event.position_world.x_m + event.other_position_world.x_m) / 2,
-                            (event.position_world.y_m + event.other_position_world.y_m) / 2);
+    const [x, y] = toScreen(...contactPlace(event));
     g.beginPath();
     g.arc(x, y, 13, 0, 7);
     g.stroke();
@@ -299,7 +301,7 @@ function drawMap(frame) {
   if (!frame) return;
   if (!view.isSet && frame.vehicles.size) fitAll(frame);
   const picked = frame.vehicles.get(state.picked);
-  if (state.follow && picked) { view.x = picked.x; view.y = picked.y; }
+  if (state.follow && picked?.has_body) { view.x = picked.x; view.y = picked.y; }
   drawGrid(g, width, height);
   drawScene(g, frame);
   drawSignals(g, frame);

@@ -6,10 +6,11 @@ const MOST_PAIRS = 1e8;
 
 // What a vehicle does, as a colour of the theme.
 function doingOf(vehicle) {
+  if (vehicle.hearing === "left") return "left";
   if (vehicle.hearing !== "heard") return "silent";
   if (vehicle.mode !== "cooperative") return vehicle.mode;
   if (vehicle.arrived || vehicle.rule === "arrived" || vehicle.rule === "not_running") return "line";
-  return WAITS.has(vehicle.rule) ? "giveway" : "cooperative";
+  return WAITS.has(vehicle.rule) || vehicle.rule === "lost" ? "giveway" : "cooperative";
 }
 
 function noteSpans(frame, spans) {
@@ -22,18 +23,29 @@ function noteSpans(frame, spans) {
   }
 }
 
-// The smallest separation of two bodies in a frame; null where there are not two.
-function leastGap(frame) {
-  const bodies = [...frame.vehicles.values()].filter((v) => v.has_body);
-  let least = null;
+// The nearest two bodies of a frame, if they are nearer than `least`, else that; null where there are not two.
+function nearerOf(frame, least, ids) {
+  const bodies = [...frame.vehicles.values()].filter((v) => v.has_body && (!ids || ids.includes(v.id)));
+  const reach = bodies.map(reachOf);
   for (let i = 0; i < bodies.length; ++i) {
     for (let j = i + 1; j < bodies.length; ++j) {
       const a = bodies[i], b = bodies[j];
-      const gap_m = Math.hypot(a.x - b.x, a.y - b.y) - a.radius - b.radius;
+      if (least && Math.hypot(a.x - b.x, a.y - b.y) - reach[i] - reach[j] >= least.gap_m) continue;
+      const gap_m = gapBetween(a, b);
       if (!least || gap_m < least.gap_m) least = { gap_m, a: a.id, b: b.id, at: frame.at };
     }
   }
   return least;
+}
+
+// What the world measured at every tick, not only at those of the frames. It says so at the end of a run.
+function closestOfWorld() {
+  let closest = null;
+  for (const event of state.events.values()) {
+    if (event.kind !== "closest" || event.other === undefined || typeof event.value !== "number") continue;
+    if (!closest || event.value < closest.value) closest = event;
+  }
+  return closest;
 }
 
 function most(values) {
@@ -42,16 +54,23 @@ function most(values) {
   return top;
 }
 
-function figuresOf(id, series, spans) {
+// Further than a vehicle drives between two frames, which are seconds apart in a long run, is another start.
+const FASTEST_M_S = 2, JUMP_M = 2;
+function pathOf({ at, x, y }) {
   let path_m = 0;
-  for (let i = 1; i < series.x.length; ++i) {
-    const step = Math.hypot(series.x[i] - series.x[i - 1], series.y[i] - series.y[i - 1]);
-    if (step < 2) path_m += step;  // more is another start
+  for (let i = 1; i < x.length; ++i) {
+    const step_m = Math.hypot(x[i] - x[i - 1], y[i] - y[i - 1]);
+    if (step_m < JUMP_M + FASTEST_M_S * (at[i] - at[i - 1]) / 1000) path_m += step_m;
   }
+  return path_m;
+}
+
+function figuresOf(id, series, spans) {
   const spent_s = (doing) => (spans ?? []).filter((span) => span.doing === doing)
     .reduce((sum, span) => sum + span.to - span.from, 0) / 1000;
   return {
-    id, path_m, waits_s: spent_s("giveway"), apart_s: spent_s("sensor_only") + spent_s("halt") + spent_s("silent"),
+    id, path_m: pathOf(series), waits_s: spent_s("giveway"),
+    apart_s: spent_s("sensor_only") + spent_s("halt") + spent_s("silent"),
     speed: most(series.speed), nearest: -most(series.nearest.map((m) => -m)),
     beacon_age: most(series.beacon_age), reaction: most(series.reaction),
     contacts: state.contacts.filter((event) => event.vehicle === id || event.other === id).length,
@@ -64,14 +83,15 @@ function figuresOfRun() {
   const ids = [...state.series.keys()].sort((a, b) => a - b);
   // Of a long run of many the gaps of some frames: more than these pairs take seconds.
   const every = Math.ceil(state.frames.length * ids.length * ids.length / MOST_PAIRS);
-  const spans = new Map();
+  const spans = new Map(), closest = closestOfWorld();
+  const pair = closest && [closest.vehicle, closest.other];
   let least = null;
   state.frames.forEach((entry, place) => {
     const frame = decode(entry);
     noteSpans(frame, spans);
-    const gap = place % every === 0 ? leastGap(frame) : null;
-    if (gap && (!least || gap.gap_m < least.gap_m)) least = gap;
+    if (pair || place % every === 0) least = nearerOf(frame, least, pair);
   });
+  if (closest && least) least.gap_m = closest.value;  // when it was, the frames say
   runFigures = { spans, least, ids, from: state.frames[0].at, to: state.frames.at(-1).at,
     vehicles: ids.map((id) => figuresOf(id, state.series.get(id), spans.get(id))) };
   return runFigures;
@@ -127,6 +147,7 @@ function drawPaths(run) {
   const width = canvas.clientWidth, height = canvas.clientHeight;
   const box = extent({ vehicles: new Map() });
   const add = (x, y) => {
+    if (isNaN(x)) return;
     box.left = Math.min(box.left, x); box.right = Math.max(box.right, x);
     box.low = Math.min(box.low, y); box.high = Math.max(box.high, y);
   };
@@ -153,8 +174,7 @@ function drawPaths(run) {
   g.strokeStyle = colours.bad;
   g.lineWidth = 3;
   for (const event of state.contacts) {
-    const [x, y] = at((event.position_world.x_m + event.other_position_world.x_m) / 2,
-      (event.position_world.y_m + event.other_position_world.y_m) / 2);
+    const [x, y] = at(...contactPlace(event));
     g.beginPath();
     g.arc(x, y, 10, 0, 7);
     g.stroke();

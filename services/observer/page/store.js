@@ -11,7 +11,8 @@ const state = {
   cursor: null,       // ms of the observer's clock; null: the newest
   playing: true, speed: 1, isReplay: false,
   arrivedAt: 0,       // performance.now() of the newest frame
-  connected: false, picked: null, follow: false, filter: "", view: "map",
+  connected: false, refusal: "",  // the observer's words where it takes no further viewer
+  picked: null, follow: false, filter: "", view: "map",
 };
 
 const decoded = new Map();  // of the last few frames that were looked at
@@ -55,6 +56,7 @@ function decode(entry, raw) {
 function noteSeries(raw) {
   const at = raw.at_ms;
   const of = ["id", "x", "y", "speed", "nearest", "beacon_age", "reaction"].map(column);
+  const body = column("has_body"), hearing = column("hearing");
   for (const row of raw.vehicles) {
     let series = state.series.get(row[of[0]]);
     if (!series) {
@@ -62,11 +64,14 @@ function noteSeries(raw) {
       state.series.set(row[of[0]], series);
     }
     series.at.push(at);
-    series.x.push(row[of[1]] / 1000);
-    series.y.push(row[of[2]] / 1000);
+    // One without a body is nowhere: its path ends where it was last.
+    series.x.push(row[body] ? row[of[1]] / 1000 : series.x.at(-1) ?? NaN);
+    series.y.push(row[body] ? row[of[2]] / 1000 : series.y.at(-1) ?? NaN);
     series.speed.push(row[of[3]] / 1000);
     series.nearest.push(row[of[4]] < 0 ? NaN : row[of[4]] / 1000);
-    series.beacon_age.push(row[of[5]] < 0 ? NaN : row[of[5]]);
+    // Of one that is not heard it only says for how long.
+    const isHeard = state.scene.hearings[row[hearing]] === "heard";
+    series.beacon_age.push(!isHeard || row[of[5]] < 0 ? NaN : row[of[5]]);
     series.reaction.push(row[of[6]] < 0 ? NaN : row[of[6]]);
     if (!state.isReplay && series.at.length > 3600) {
       for (const list of Object.values(series)) list.splice(0, 600);
@@ -80,17 +85,24 @@ function noteEvents(at_ms, events) {
     if (state.events.has(key)) continue;
     const noted = { at: at_ms, ...event };
     state.events.set(key, noted);
-    if (event.kind === "contact" && event.other_position_world) state.contacts.push(noted);
+    if (event.kind === "contact") state.contacts.push(noted);
   }
   if (state.isReplay) return;
   while (state.events.size > MOST_EVENTS) state.events.delete(state.events.keys().next().value);
   if (state.contacts.length > MOST_EVENTS) state.contacts.shift();
 }
 
+// Where two touched, x and y; with a wall, an obstacle or a door the other place is that point itself.
+function contactPlace({ other, position_world: one, other_position_world: touched }) {
+  if (other === undefined) return [touched.x_m, touched.y_m];
+  return [(one.x_m + touched.x_m) / 2, (one.y_m + touched.y_m) / 2];
+}
+
 function clearStore() {
   state.frames = []; state.bytes = 0; state.series.clear(); state.events.clear(); decoded.clear();
   state.contacts = [];
   state.cursor = null;
+  if (!state.isReplay) state.playing = true;  // the moment that it stood at is gone
 }
 
 function addFrame(data, raw) {
@@ -148,7 +160,7 @@ function vehiclesBetween(frame, later) {
   between = { frame, later, vehicles: new Map(), moving: [] };
   for (const [id, vehicle] of frame.vehicles) {
     const then = later.vehicles.get(id);
-    const moves = then && Math.hypot(then.x - vehicle.x, then.y - vehicle.y) <= 2;
+    const moves = then && vehicle.has_body && then.has_body && Math.hypot(then.x - vehicle.x, then.y - vehicle.y) <= 2;
     const shown = moves ? { ...vehicle } : vehicle;
     between.vehicles.set(id, shown);
     if (moves) between.moving.push([shown, vehicle, then]);

@@ -1,12 +1,30 @@
 // Where frames come from, what is said about them, and the turn that draws.
 const STALE_MS = 2000;
 
+const STREAM = "api/v1/stream";
+
+// An EventSource does not say why it was refused; asked once more, the observer does.
+async function askWhyRefused() {
+  const question = new AbortController();
+  try {
+    const answer = await fetch(STREAM, { signal: question.signal });
+    state.refusal = answer.ok ? "" : (await answer.text()).trim();
+  } catch {
+    state.refusal = "";  // there is no observer
+  }
+  question.abort();
+}
+
 function follow() {
-  const source = new EventSource("api/v1/stream");
+  const source = new EventSource(STREAM);
+  let came = false;
   source.addEventListener("scene", (event) => {
-    setScene(JSON.parse(event.data));
-    clearStore();
+    came = true;
+    const scene = JSON.parse(event.data), before = state.scene?.observer;
+    setScene(scene);
+    if (before !== scene.observer) clearStore();  // else the connection alone was lost
     state.connected = true;
+    state.refusal = "";
     document.title = "Giveway " + state.scene.title;
   });
   source.addEventListener("frame", (event) => {
@@ -15,9 +33,10 @@ function follow() {
     addFrame(event.data, raw);
     state.arrivedAt = performance.now();
   });
-  source.addEventListener("error", () => {
+  source.addEventListener("error", async () => {
     state.connected = false;
     source.close();
+    if (!came) await askWhyRefused();
     setTimeout(follow, 1000);
   });
 }
@@ -46,10 +65,19 @@ function setChip(id, text, kind) {
 
 function linkWords(silence_ms) {
   if (state.isReplay) return ["replay", "ok"];
+  if (!state.frames.length && state.refusal) return [state.refusal, "bad"];
   if (!state.frames.length) return [state.connected ? "no frame yet" : "connecting", "warn"];
   if (!state.connected) return ["disconnected", "bad"];
   if (silence_ms > STALE_MS) return ["stale", "bad"];
   return state.cursor === null ? ["live", "ok"] : ["live, looking back", "warn"];
+}
+
+// A world without vehicles is there, and says nothing.
+function worldWords(world) {
+  if (world.age_ms < 0) return world.heard ? ["world without vehicles", ""] : ["no world heard", "warn"];
+  const silent = !world.heard && world.state !== "ended";
+  const words = `${world.state ?? "world"} ${(world.time_ms / 1000).toFixed(1)} s`;
+  return silent ? [words + ", silent", "warn"] : [words, ""];
 }
 
 function showStatus(frame) {
@@ -64,11 +92,7 @@ function showStatus(frame) {
   }
   if (!frame) return;
   setText(byId("title"), state.scene.scenario ? `${state.scene.title}, ${state.scene.scenario}` : state.scene.title);
-  const world = frame.world;
-  const silent = world.age_ms > 1000 && world.state !== "ended";
-  setChip("world", world.age_ms < 0 ? "no world heard"
-    : `${world.state ?? "world"} ${(world.time_ms / 1000).toFixed(1)} s${silent ? ", silent" : ""}`,
-    world.age_ms < 0 || silent ? "warn" : "");
+  setChip("world", ...worldWords(frame.world));
   const all = [...frame.vehicles.values()];
   const silentCount = all.filter((v) => v.hearing === "silent").length;
   const waiting = all.filter((v) => v.hearing === "heard" && v.gives_way_to).length;
@@ -91,6 +115,7 @@ function showTime() {
 let lastTurn = performance.now(), lastWords = 0;
 const drawn = { frames: 0 };
 function turn(now) {
+  requestAnimationFrame(turn);  // first: what cannot be drawn must not end the turns
   advance(now - lastTurn);
   lastTurn = now;
   const frame = shownFrame();
@@ -105,7 +130,6 @@ function turn(now) {
     showTime();
   }
   ++drawn.frames;
-  requestAnimationFrame(turn);
 }
 
 // For tests and the curious.

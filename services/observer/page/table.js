@@ -10,8 +10,8 @@ const COLUMNS = [
   { name: "beacon_age", title: "beacon, ms", of: (v) => (v.beacon_age < 0 ? "" : v.beacon_age) },
   { name: "reaction", title: "reaction, ms", wide: true, of: (v) => (v.reaction < 0 ? "" : v.reaction) },
   { name: "peers_heard", title: "peers", wide: true, of: (v) => (v.peers_heard < 0 ? "" : v.peers_heard) },
-  { name: "x", title: "x, m", wide: true, of: (v) => v.x.toFixed(2) },
-  { name: "y", title: "y, m", wide: true, of: (v) => v.y.toFixed(2) },
+  { name: "x", title: "x, m", wide: true, of: (v) => (v.has_body ? v.x.toFixed(2) : "") },
+  { name: "y", title: "y, m", wide: true, of: (v) => (v.has_body ? v.y.toFixed(2) : "") },
 ];
 const sorting = { name: "id", down: false };
 const tableRows = new Map();

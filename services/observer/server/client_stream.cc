@@ -15,8 +15,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr std::size_t kLongestRequest = 8192;  // bytes: a browser sends some hundred
-constexpr Nanoseconds kRequestTime = std::chrono::seconds(2);
 // A client that takes nothing for this long is gone, or might as well be.
 constexpr Nanoseconds kWriteTime = std::chrono::seconds(5);
 // And one that takes an answer by drops holds a thread.

@@ -6,10 +6,13 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <functional>
+#include <optional>
 #include <thread>
 #include <utility>
 
 #include "services/observer/server/client_stream.h"
+#include "services/observer/server/pending_requests.h"
 #include "services/observer/server/request_rules.h"
 #include "services/runtime/process.h"
 #include "services/runtime/signals_blocked.h"
@@ -21,51 +24,61 @@ using std::chrono::milliseconds;
 
 // One a stream, and some for the page and for programs.
 constexpr std::size_t kThreads = PageServer::kMostStreams + 4;
-constexpr int kMostWaiting = 16;  // connections; further ones are closed at once
+constexpr int kMostWaiting = 16;  // requests; the connections of further ones are closed
 constexpr Nanoseconds kHeartbeat = std::chrono::seconds(1);  // of a stream without frames
 
-// True on the accepting thread while it hands over a connection that the pool has no capacity for.
-thread_local bool turns_away = false;
-
-class WaitingLine : public httplib::TaskQueue {
+// Runs tasks at once, on the thread that accepts: all they do is to hand over a connection.
+class AtOnce : public httplib::TaskQueue {
   // Later versions of the library say whether they took a task.
   using Taken = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
 
  public:
   Taken enqueue(std::function<void()> task) override {
-    if (waiting_ >= kMostWaiting) {
-      turns_away = true;
-      task();
-      turns_away = false;
-      return static_cast<Taken>(true);
-    }
-    ++waiting_;
-    return pool_.enqueue([this, task = std::move(task)] {
-      --waiting_;
-      task();
-    });
+    task();
+    return static_cast<Taken>(true);
   }
-  void shutdown() override { pool_.shutdown(); }
-
- private:
-  std::atomic<int> waiting_{0};
-  httplib::ThreadPool pool_{kThreads};
+  void shutdown() override {}
 };
 
 class StreamServer : public httplib::Server {
  public:
+  StreamServer() {
+    const SignalsBlocked blocked;
+    pool_.emplace(kThreads);
+    pending_.emplace([this](int socket) { HandOn(socket); });
+  }
+  ~StreamServer() override { Finish(); }
+  StreamServer(const StreamServer&) = delete;
+  StreamServer& operator=(const StreamServer&) = delete;
+
   void GiveUp() { stops_ = true; }
   bool GivesUp() const { return stops_; }
+  // No client is answered from here on. To be called once it has given up and accepts no more.
+  void Finish() {
+    pending_.reset();
+    if (pool_) pool_->shutdown();
+    pool_.reset();
+  }
 
  private:
   bool process_and_close_socket(socket_t socket) override {
-    if (!turns_away) {
+    pending_->Take(socket);
+    return true;
+  }
+
+  void HandOn(int socket) {
+    if (waiting_ >= kMostWaiting) {
+      close(socket);
+      return;
+    }
+    ++waiting_;
+    pool_->enqueue([this, socket] {
+      --waiting_;
       ClientStream stream(socket, stops_);
       Answer(*this, stream);
       stream.Drain();
-    }
-    close(socket);
-    return true;
+      close(socket);
+    });
   }
 
   // A template: later versions of the library want the addresses handed in, 0.11 does not.
@@ -80,6 +93,9 @@ class StreamServer : public httplib::Server {
   }
 
   std::atomic<bool> stops_{false};
+  std::atomic<int> waiting_{0};  // requests that wait for a thread
+  std::optional<httplib::ThreadPool> pool_;
+  std::optional<PendingRequests> pending_;  // hands on to the pool
 };
 
 void ListenAlone(socket_t socket) {
@@ -211,7 +227,7 @@ PageServer::PageServer(const std::string& address, std::uint16_t port, PageSourc
     : impl_(std::make_unique<Impl>(std::move(sources))) {
   StreamServer& server = impl_->server;
   server.set_socket_options(ListenAlone);
-  server.new_task_queue = [] { return new WaitingLine; };
+  server.new_task_queue = [] { return new AtOnce; };
   server.set_pre_routing_handler([this](const auto& request, auto& response) {
     impl_->Answer(request, response);
     return httplib::Server::HandlerResponse::Handled;
@@ -234,6 +250,7 @@ PageServer::~PageServer() {
     SleepUntil(SteadyNow() + milliseconds(5));
   }
   impl_->listener.join();
+  impl_->server.Finish();  // its clients use what else there is
 }
 
 ServerFigures PageServer::Figures() const { return impl_->Figures(); }

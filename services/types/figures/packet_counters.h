@@ -22,9 +22,10 @@ enum class PacketDrop : std::uint8_t {
   kRangeTooLong,      // a GAP of more sequence numbers than any writer keeps
   kSequenceJump,      // a sequence number beyond what the writer's rate allows
   kTooManyStrangers,  // announcements of new participants, faster than a fleet grows
-  kFragmentedAnnouncement  // a part of an announcement that its sender did not send in one piece
+  kFragmentedAnnouncement,  // a part of an announcement that its sender did not send in one piece
+  kTooManyEndpoints         // announcements of endpoints, more than participants of a fleet have
 };
-inline constexpr std::size_t kPacketDrops = 12;  // kNone included
+inline constexpr std::size_t kPacketDrops = 13;  // kNone included
 
 // As in metrics and in the log: "sequence_jump".
 constexpr std::string_view Name(PacketDrop drop) {
@@ -53,6 +54,8 @@ constexpr std::string_view Name(PacketDrop drop) {
       return "too_many_strangers";
     case PacketDrop::kFragmentedAnnouncement:
       return "fragmented_announcement";
+    case PacketDrop::kTooManyEndpoints:
+      return "too_many_endpoints";
   }
   return "unknown";
 }

@@ -1,11 +1,13 @@
 #include "services/vehicle/decision/decide.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "services/vehicle/decision/decision_rules.h"
 #include "services/vehicle/decision/lecture.h"
 #include "services/vehicle/decision/steering.h"
 #include "services/vehicle/decision/turn_room.h"
+#include "services/vehicle/situation/blocked.h"
 #include "services/vehicle/situation/claim.h"
 #include "services/vehicle/situation/encounter.h"
 
@@ -42,14 +44,6 @@ std::optional<TurnLimit> TurnTooFast(const Steering& steering, const Situation& 
   return turn && turn->max_speed_m_s < s.own.speed_m_s ? turn : std::nullopt;
 }
 
-// Whether it turns faster than the noise of its encoders shows of one that drives straight on.
-bool SurelyTurns(const Situation& s) {
-  constexpr double kOfBothRims = 1.4142135623730951;  // two independent errors
-  const RobotModel& profile = s.own.options.profile;
-  const double noise_m_s = kOfBothRims * profile.encoder_noise * Magnitude(s.own.speed_m_s);
-  return Magnitude(s.own.turn_rad_s) * profile.drive.axle_m > kSigmas * noise_m_s;
-}
-
 // True if it had better come out of a turn than stand as soon as it can: with brakes weaker than
 // the motors it turns far until it stands, and the rules measure how far is free straight ahead.
 // Where peers count on its braking, it brakes. A turn that may be noise is none: one rim and then
@@ -59,7 +53,10 @@ bool Straightens(const Decision& decision, const Situation& s) {
   if (profile.acceleration_m_s2 <= profile.deceleration_m_s2) return false;
   if (s.own.options.behaviour != Behaviour::kCooperative) return false;
   if (decision.rule != Rule::kObstacle && decision.rule != Rule::kObject) return false;
-  return SurelyTurns(s) && OnlyObstaclesSlow(s);
+  // What the noise of both encoders, two independent errors, shows of one that drives straight on.
+  const double noise_m_s = std::numbers::sqrt2 * profile.encoder_noise * Magnitude(s.own.speed_m_s);
+  return Magnitude(s.own.turn_rad_s) * profile.drive.axle_m > kSigmas * noise_m_s &&
+         OnlyObstaclesSlow(s);
 }
 
 // Drives to the goal no faster than `limit`, slowing so that it can stop there.
@@ -73,9 +70,8 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
                                               profile.deceleration_m_s2));
   }
   action.decision.rule = Rule::kCruise;
-  if (steering.gets_away) speed = std::min(speed, kRoundSpeed_m_s);
+  if (steering.gets_away || steering.round != kNoVehicle) speed = std::min(speed, kRoundSpeed_m_s);
   if (steering.round != kNoVehicle) {
-    speed = std::min(speed, kRoundSpeed_m_s);
     action.decision.rule = Rule::kSteerRound;
     action.decision.peer = steering.round;
   }
@@ -114,7 +110,7 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
 
 // A red light ahead is published even if another rule limits the speed now: peers rely on this
 // vehicle staying behind its line. Only rules that stop the vehicle anyway keep their name.
-bool IsReportedBeforeLight(Rule rule) {
+bool IsReportedAsLight(Rule rule) {
   switch (rule) {
     case Rule::kCruise:
     case Rule::kUnsure:
@@ -123,9 +119,9 @@ bool IsReportedBeforeLight(Rule rule) {
     case Rule::kObstacle:
     case Rule::kObject:
     case Rule::kSteerRound:
-      return false;
-    default:
       return true;
+    default:
+      return false;
   }
 }
 
@@ -146,7 +142,7 @@ Action Decide(const Situation& s) {
   const bool avoids = behaviour == Behaviour::kLectureAvoid || behaviour == Behaviour::kStockAvoid;
   Action action = avoids && !limit ? AvoidingAction(s) : DrivingAction(s, limit);
   if (behaviour == Behaviour::kLecturePrinted && !limit) action = AsPrinted(s, action);
-  if (s.own.stop_line && !IsReportedBeforeLight(action.decision.rule) &&
+  if (s.own.stop_line && IsReportedAsLight(action.decision.rule) &&
       StandsAtLine(*s.own.stop_line, s)) {
     action.decision = {.rule = Rule::kSignal, .cause_tick = s.own.stop_line->tick};
   }
@@ -155,11 +151,9 @@ Action Decide(const Situation& s) {
 }
 
 VehicleId GivesWayTo(const Situation& s) {
-  const PeerView* nearest = nullptr;
-  for (const PeerView& view : s.near.peers) {
-    if (!view.peer->encounter.active || !view.fresh || !CanGiveWay(view, s.own)) continue;
-    if (nearest == nullptr || view.gap_m < nearest->gap_m) nearest = &view;
-  }
+  const PeerView* nearest = NearestOf(s.near.peers, [&s](const PeerView& view) {
+    return view.peer->encounter.active && view.fresh && CanGiveWay(view, s.own);
+  });
   return nearest == nullptr ? kNoVehicle : nearest->peer->id;
 }
 

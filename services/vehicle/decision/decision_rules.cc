@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "services/vehicle/estimation/injected_mutants.h"
+#include "services/vehicle/situation/blocked.h"
 #include "services/vehicle/situation/echoes.h"
 #include "services/vehicle/situation/heard_places.h"
 #include "services/vehicle/situation/objects_ahead.h"
@@ -12,15 +13,18 @@ namespace {
 
 Proposal DeadStop(Rule rule) { return {.max_speed_m_s = 0, .may_turn = false, .rule = rule}; }
 
-// A dead stop for the nearest peer that this vehicle holds for and `applies` to.
-template <typename Predicate>
-std::optional<Proposal> HoldFor(Rule rule, const Situation& s, Predicate applies) {
+// Why this vehicle holds for that peer, if it does.
+Rule HoldsBy(const PeerView& view) {
+  if (view.lost) return Rule::kPeerLost;
+  return view.has_priority ? Rule::kGiveWay : Rule::kNotGranted;
+}
+
+// A dead stop for the nearest peer that this vehicle holds for by that rule.
+std::optional<Proposal> HoldFor(Rule rule, const Situation& s) {
   if (!s.near.encounters.holds) return std::nullopt;
-  const PeerView* nearest = nullptr;
-  for (const PeerView& view : s.near.peers) {
-    if (!view.peer->encounter.holds || !applies(view)) continue;
-    if (nearest == nullptr || view.gap_m < nearest->gap_m) nearest = &view;
-  }
+  const PeerView* nearest = NearestOf(s.near.peers, [rule](const PeerView& view) {
+    return view.peer->encounter.holds && HoldsBy(view) == rule;
+  });
   if (nearest == nullptr) return std::nullopt;
   Proposal proposal = DeadStop(rule);
   proposal.peer = nearest->peer->id;
@@ -44,14 +48,21 @@ std::optional<Proposal> LowestOf(const Situation& s) {
   return lowest;
 }
 
+// The speed from which it stops within so much; empty where it cruises no faster.
+std::optional<double> LimitWithin(double free_m, const Situation& s) {
+  const double limit =
+      SpeedToStopWithin(free_m, s.own.reaction_s, s.own.options.profile.deceleration_m_s2);
+  if (limit >= s.own.options.cruise_m_s) return std::nullopt;
+  return limit;
+}
+
 // What was heard ahead, be it by none any more: a cause without a tick that shows it.
 std::optional<Proposal> HeardPlace(const Situation& s) {
   const std::optional<double> free_m = FreeOfPlaces({1, 0}, s);
   if (!free_m || MutantActive(Mutant::kObstacleIgnored)) return std::nullopt;
-  const double limit = SpeedToStopWithin(*free_m - kStandOff_m, s.own.reaction_s,
-                                         s.own.options.profile.deceleration_m_s2);
-  if (limit >= s.own.options.cruise_m_s) return std::nullopt;
-  return Proposal{.max_speed_m_s = limit, .may_turn = true, .rule = Rule::kObstacle};
+  const std::optional<double> limit = LimitWithin(*free_m - kStandOff_m, s);
+  if (!limit) return std::nullopt;
+  return Proposal{.max_speed_m_s = *limit, .may_turn = true, .rule = Rule::kObstacle};
 }
 
 // By how much it turns to the left from when echoes showed a slant, which is kClosingTime_s ago, to
@@ -104,7 +115,7 @@ std::optional<Proposal> Arrived(const Situation& s) {
 // it is: beyond its limit it promises no place any more, stands, and says so.
 std::optional<Proposal> Lost(const Situation& s) {
   if (!s.own.lost) return std::nullopt;
-  return Proposal{.max_speed_m_s = 0, .may_turn = false, .rule = Rule::kLost};
+  return DeadStop(Rule::kLost);
 }
 
 std::optional<Proposal> Unsure(const Situation& s) {
@@ -114,19 +125,9 @@ std::optional<Proposal> Unsure(const Situation& s) {
                   .rule = Rule::kUnsure};
 }
 
-std::optional<Proposal> GiveWay(const Situation& s) {
-  return HoldFor(Rule::kGiveWay, s,
-                 [](const PeerView& view) { return !view.lost && view.has_priority; });
-}
-
-std::optional<Proposal> NotGranted(const Situation& s) {
-  return HoldFor(Rule::kNotGranted, s,
-                 [](const PeerView& view) { return !view.lost && !view.has_priority; });
-}
-
-std::optional<Proposal> PeerLost(const Situation& s) {
-  return HoldFor(Rule::kPeerLost, s, [](const PeerView& view) { return view.lost; });
-}
+std::optional<Proposal> GiveWay(const Situation& s) { return HoldFor(Rule::kGiveWay, s); }
+std::optional<Proposal> NotGranted(const Situation& s) { return HoldFor(Rule::kNotGranted, s); }
+std::optional<Proposal> PeerLost(const Situation& s) { return HoldFor(Rule::kPeerLost, s); }
 
 std::optional<Proposal> Signal(const Situation& s) {
   if (!s.own.stop_line || MutantActive(Mutant::kSignalIgnored)) return std::nullopt;
@@ -140,11 +141,10 @@ std::optional<Proposal> Signal(const Situation& s) {
 std::optional<Proposal> Object(const Situation& s) {
   const std::optional<ObjectAhead> object = NearestObstacle(s.own.objects, s);
   if (!object) return std::nullopt;
-  const double limit = SpeedToStopWithin(object->free_m - kStandOff_m, s.own.reaction_s,
-                                         s.own.options.profile.deceleration_m_s2);
-  if (limit >= s.own.options.cruise_m_s) return std::nullopt;
+  const std::optional<double> limit = LimitWithin(object->free_m - kStandOff_m, s);
+  if (!limit) return std::nullopt;
   return Proposal{
-      .max_speed_m_s = limit, .may_turn = true, .rule = Rule::kObject, .cause_tick = object->tick};
+      .max_speed_m_s = *limit, .may_turn = true, .rule = Rule::kObject, .cause_tick = object->tick};
 }
 
 std::optional<Proposal> UnidentifiedMotion(const Situation& s) {
@@ -160,10 +160,9 @@ std::optional<Proposal> Obstacle(const Situation& s) {
   for (const std::size_t i : BitsOf(s.own.ranges.Echoes())) {
     const std::optional<double> free_m = FreeOfEcho(i, s);
     if (!free_m || MutantActive(Mutant::kObstacleIgnored)) continue;
-    const double limit = SpeedToStopWithin(*free_m - kStandOff_m, s.own.reaction_s,
-                                           s.own.options.profile.deceleration_m_s2);
-    if (limit >= s.own.options.cruise_m_s || (nearest && limit >= nearest->max_speed_m_s)) continue;
-    nearest = Proposal{.max_speed_m_s = limit,
+    const std::optional<double> limit = LimitWithin(*free_m - kStandOff_m, s);
+    if (!limit || (nearest && *limit >= nearest->max_speed_m_s)) continue;
+    nearest = Proposal{.max_speed_m_s = *limit,
                        .may_turn = true,
                        .rule = Rule::kObstacle,
                        .sensor = static_cast<int>(i),
@@ -178,10 +177,9 @@ std::optional<Proposal> KeepClear(const Situation& s) {
   for (const PeerView& view : s.near.peers) {
     if (view.free_m >= s.own.slows_m || MutantActive(Mutant::kClaimIgnored)) continue;
     if (MutantActive(Mutant::kBrakesTooLate) && view.free_m > 0) continue;
-    const double limit =
-        SpeedToStopWithin(view.free_m, s.own.reaction_s, s.own.options.profile.deceleration_m_s2);
-    if (limit >= s.own.options.cruise_m_s || (lowest && limit >= lowest->max_speed_m_s)) continue;
-    lowest = Proposal{.max_speed_m_s = limit,
+    const std::optional<double> limit = LimitWithin(view.free_m, s);
+    if (!limit || (lowest && *limit >= lowest->max_speed_m_s)) continue;
+    lowest = Proposal{.max_speed_m_s = *limit,
                       .may_turn = true,
                       .rule = Rule::kKeepClear,
                       .peer = view.peer->id,
@@ -192,10 +190,9 @@ std::optional<Proposal> KeepClear(const Situation& s) {
 
 std::optional<Proposal> KeepBoxClear(const Situation& s) {
   if (!s.near.blocked_box) return std::nullopt;
-  const double limit = SpeedToStopWithin(s.near.blocked_box->begin_m - kInHand_m, s.own.reaction_s,
-                                         s.own.options.profile.deceleration_m_s2);
-  if (limit >= s.own.options.cruise_m_s) return std::nullopt;
-  return Proposal{.max_speed_m_s = limit,
+  const std::optional<double> limit = LimitWithin(s.near.blocked_box->begin_m - kInHand_m, s);
+  if (!limit) return std::nullopt;
+  return Proposal{.max_speed_m_s = *limit,
                   .may_turn = true,
                   .rule = Rule::kKeepClear,
                   .peer = s.near.blocked_box->by,

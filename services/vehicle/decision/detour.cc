@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numbers>
 
 #include "services/types/math/math.h"
 
@@ -25,15 +26,14 @@ struct Step {
   int dx, dy;
   double length;
 };
-constexpr double kDiagonal = 1.4142135623730951;  // of a cell of side 1
 constexpr std::array<Step, 8> kSteps = {{{1, 0, 1},
                                          {0, 1, 1},
                                          {-1, 0, 1},
                                          {0, -1, 1},
-                                         {1, 1, kDiagonal},
-                                         {-1, 1, kDiagonal},
-                                         {-1, -1, kDiagonal},
-                                         {1, -1, kDiagonal}}};
+                                         {1, 1, std::numbers::sqrt2},
+                                         {-1, 1, std::numbers::sqrt2},
+                                         {-1, -1, std::numbers::sqrt2},
+                                         {1, -1, std::numbers::sqrt2}}};
 
 constexpr int Index(int column, int row) { return row * kSide + column; }
 

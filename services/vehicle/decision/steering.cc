@@ -22,10 +22,8 @@ constexpr double kLookahead_m = 3;
 constexpr double kKeepSide_rad = 0.6;
 // Past an obstacle, but not back: a vehicle that turns round in a lane meets its followers head-on.
 constexpr double kNoReturn_rad = 1.8;
-// A turn by less than this is none.
-constexpr double kSmallTurn_rad = 0.02;
-// A gap no wider than this is none.
-constexpr double kNarrow_rad = 0.02;
+// A turn by less than this is none, and a gap no wider.
+constexpr double kSmall_rad = 0.02;
 // So near to where something would stop it, it comes no further.
 constexpr double kCreeps_m = 0.05;
 
@@ -44,10 +42,6 @@ struct BlockedHeadings {
   bool echoes = false;  // some of them are
   bool stops = false;   // one of these keeps the vehicle where it stands
 };
-
-bool IsBlockedBy(const Blocked& blocked, double heading_rad) {
-  return Magnitude(WrapAngle(heading_rad - blocked.middle_rad)) < blocked.half_rad - 1e-6;
-}
 
 // Stands ahead on the same path and will resume: this vehicle queues behind it. Overtaking a queue
 // ends in front of oncoming traffic.
@@ -155,7 +149,8 @@ const Blocked* BlockedAt(const BlockedHeadings& headings, double heading_rad,
   const Blocked* nearest = nullptr;
   for (std::size_t i = 0; i < headings.count; ++i) {
     const Blocked& blocked = headings.of[i];
-    if (!IsBlockedBy(blocked, heading_rad)) continue;
+    const double off_rad = Magnitude(WrapAngle(heading_rad - blocked.middle_rad));
+    if (!(off_rad < blocked.half_rad - 1e-6)) continue;
     if (vehicles_alone && blocked.peer == kNoVehicle) continue;
     if (nearest == nullptr || blocked.distance_m < nearest->distance_m) nearest = &blocked;
   }
@@ -181,7 +176,7 @@ std::optional<double> FreeHeading(const BlockedHeadings& headings, double wanted
     for (const int end : {1, -1}) {
       const double edge = blocked.middle_rad + end * blocked.half_rad;
       if (BlockedAt(headings, edge, vehicles_alone) != nullptr) continue;
-      if (BlockedAt(headings, edge + end * kNarrow_rad, vehicles_alone) != nullptr) continue;
+      if (BlockedAt(headings, edge + end * kSmall_rad, vehicles_alone) != nullptr) continue;
       const double turn = WrapAngle(edge - wanted_rad);
       if (Magnitude(turn) > kNoReturn_rad) continue;
       // Passing on the right, with the obstacle to the left, where both sides are alike.
@@ -252,12 +247,6 @@ std::optional<double> KeptHeading(const BlockedHeadings& headings, const Situati
   return stopped_there ? std::nullopt : s.escape.away_rad;
 }
 
-// True if the vehicle stands, and turns before it drives.
-bool TurnsOnTheSpot(double heading_rad, const Situation& s) {
-  const double error_rad = WrapAngle(heading_rad - s.own.world_from_body.heading_rad);
-  return s.own.speed_m_s < kStandingSpeed_m_s && Magnitude(error_rad) > kTurnOnTheSpot_rad;
-}
-
 double Activation(const BraitenbergWeights& weights, const SensorView& view) {
   if (view.kind != Echo::kEcho || view.range_m >= weights.far_gate_m) return 0;
   const double range = std::max(view.range_m, weights.near_gate_m);
@@ -275,7 +264,6 @@ Steering SteerToGoal(const Situation& s) {
     wanted = Atan2(displacement.y, displacement.x);
     path_m = Norm(displacement);
   }
-  double heading = wanted;
   BlockedHeadings headings = WhatBlocks(s, path_m);
   if (s.escape.no_progress) {
     AddEchoes(s, &headings);
@@ -292,16 +280,20 @@ Steering SteerToGoal(const Situation& s) {
   }
   if (const Blocked* blocked = BlockedAt(headings, wanted)) {
     const Turn turn = TurnPast(headings, wanted, s.own.steer_side);
-    heading = turn.heading_rad;
+    const double heading = turn.heading_rad;
     steering.round = blocked->peer;
     steering.side = WrapAngle(heading - wanted) > 0 ? 1 : -1;
+    steering.heading_error_rad = WrapAngle(heading - s.own.world_from_body.heading_rad);
     const bool gets_away = headings.stops && !HasCompany(s);
-    if (heading != wanted && (gets_away || (turn.kept && TurnsOnTheSpot(heading, s)))) {
+    const bool turns_on_the_spot = s.own.speed_m_s < kStandingSpeed_m_s &&
+                                   Magnitude(steering.heading_error_rad) > kTurnOnTheSpot_rad;
+    if (heading != wanted && (gets_away || (turn.kept && turns_on_the_spot))) {
       steering.away_rad = heading;
       steering.gets_away = true;
     }
+    return steering;
   }
-  steering.heading_error_rad = WrapAngle(heading - s.own.world_from_body.heading_rad);
+  steering.heading_error_rad = WrapAngle(wanted - s.own.world_from_body.heading_rad);
   return steering;
 }
 
@@ -384,12 +376,12 @@ std::optional<TurnLimit> LimitOfTurn(const Steering& steering, const Situation& 
                          s.own.speed_m_s / profile.deceleration_m_s2;
   const double most_rad = MostTurnOf(profile) * stops_s;
   const double turned_rad = std::clamp(steering.heading_error_rad, -most_rad, most_rad);
-  if (Magnitude(turned_rad) < kSmallTurn_rad) return std::nullopt;
+  if (Magnitude(turned_rad) < kSmall_rad) return std::nullopt;
   const double heading_rad = s.own.world_from_body.heading_rad + turned_rad;
   const Vec2 forward_world = {Cos(heading_rad), Sin(heading_rad)};
   std::optional<TurnLimit> lowest;
   for (const PeerView& view : s.near.peers) {
-    const double free_m = std::min(FreeAlong(view, forward_world, s.own), s.own.slows_m);
+    const double free_m = FreeAlong(view, forward_world, s.own);
     if (free_m >= s.own.slows_m || free_m >= view.free_m) continue;
     const double limit = SpeedToStopWithin(free_m, s.own.reaction_s, profile.deceleration_m_s2);
     if (!lowest || limit < lowest->max_speed_m_s) {
@@ -457,10 +449,12 @@ Rims Straightened(const RobotModel& profile, const Rims& now, Rims target, doubl
   const bool turns_left = now.left_m_s < now.right_m_s;
   const auto [inner_now, outer_now] = std::minmax(now.left_m_s, now.right_m_s);
   double& inner = turns_left ? target.left_m_s : target.right_m_s;
-  const double outer = turns_left ? target.right_m_s : target.left_m_s;
+  double& outer = turns_left ? target.right_m_s : target.left_m_s;
   const double outer_after = RimAfterTick(profile, outer_now, outer, tick_s);
   const double turns_on_m_s = std::max(0.0, outer - inner);
   inner = std::max(inner, std::min(inner_now, outer_after - turns_on_m_s));
+  // A drive slows the faster rim of a turn that is too sharp: the other must not ask for one.
+  outer = std::max(outer, inner - profile.drive.axle_m * profile.max_turn_rad_s);
   return target;
 }
 

@@ -141,7 +141,8 @@ std::optional<FieldFault> FaultOf(const Beacon& b) {
   if (b.mode > Mode::kLeaving) return fault("mode", mode, 0, double(Mode::kLeaving));
   if (b.rule > kLastRule) return fault("rule", rule, 0, double(kLastRule));
   const PriorityKey& order = b.order;
-  if (order.waited_ticks > Number(b.tick)) {
+  // No world, no tick: it may have waited before its process was started again.
+  if (b.world_epoch != kNoEpoch && order.waited_ticks > Number(b.tick)) {
     return fault("order_waited_ticks", order.waited_ticks, 0, Number(b.tick));
   }
   // Its own key carries its own cruise speed, rounded; an inherited key that of another vehicle.

@@ -87,6 +87,22 @@ void PeerTable::Store(Peer* peer, const ReceivedBeacon& received, Tick tick) {
   ++peer->waiting_count;
 }
 
+// One that it has driven out of reach, or so it says. Who jumps there has not: what is known of it,
+// and its claim, are as good as if it had fallen silent. Judged once: what it says while it is
+// doubted does not fit what it said before that.
+void PeerTable::NoteBeyond(Peer* peer, const ReceivedBeacon& received,
+                           const VehicleOptions& options, TrustCounters* trust) {
+  peer->spoke = received.received;
+  peer->last_seq = received.beacon.seq;
+  const Beacon* before = LastBeaconOf(*peer);
+  if (before != nullptr && !IsDoubted(peer->trust, received.received)) {
+    JudgeBeacon(*before, received, options, &peer->trust, trust);
+  }
+  if (before != nullptr && IsDoubted(peer->trust, received.received)) return;
+  peer->out_of_reach = true;
+  peer->waiting_count = 0;  // all older than this one
+}
+
 BeaconRefusal PeerTable::Take(const ReceivedBeacon& received, const Self& self,
                               const VehicleOptions& options, BeaconCounters* counters,
                               TrustCounters* trust) {
@@ -107,13 +123,19 @@ BeaconRefusal PeerTable::Take(const ReceivedBeacon& received, const Self& self,
                ? refuse(&BeaconCounters::rejected_out_of_range, BeaconRefusal::kOutOfRange)
                : refuse(&BeaconCounters::rejected_not_finite, BeaconRefusal::kNotFinite);
   }
-  // Before either has heard the world, positions have no common frame to be near in.
-  const bool elsewhere = beacon.world_epoch != self.epoch;
-  if (self.epoch == kNoEpoch || (elsewhere && beacon.world_epoch == kNoEpoch)) {
+  // Before either has heard the world, positions have no common frame to be near in. Nor does one
+  // that has had no scan yet say anything of now.
+  if (self.epoch == kNoEpoch || beacon.world_epoch == kNoEpoch || beacon.tick == kNoTick) {
     ++counters->not_heard;
     return BeaconRefusal::kNone;
   }
-  if (elsewhere) return refuse(&BeaconCounters::rejected_wrong_epoch, BeaconRefusal::kWrongEpoch);
+  if (beacon.world_epoch != self.epoch) {
+    return refuse(&BeaconCounters::rejected_wrong_epoch, BeaconRefusal::kWrongEpoch);
+  }
+  // Before anything is noted of its writer: a time that far ahead would hold for as long.
+  if (self.tick != kNoTick && beacon.tick > After(self.tick, kMostTicksAhead)) {
+    return refuse(&BeaconCounters::rejected_out_of_range, BeaconRefusal::kOutOfRange);
+  }
 
   const Vec2 apart = beacon.world_from_body.position_world - self.position_world;
   const bool heard = SquaredNorm(apart) <= options.emission_radius_m * options.emission_radius_m;
@@ -122,12 +144,7 @@ BeaconRefusal PeerTable::Take(const ReceivedBeacon& received, const Self& self,
     Peer* peer = Find(beacon.vehicle);
     const bool newer = peer != nullptr && peer->writer == received.writer &&
                        peer->boot_epoch == beacon.boot_epoch && beacon.seq > peer->last_seq;
-    if (newer) {
-      peer->out_of_reach = true;
-      peer->waiting_count = 0;  // all older than this one
-      peer->spoke = received.received;
-      peer->last_seq = beacon.seq;
-    }
+    if (newer) NoteBeyond(peer, received, options, trust);
     return BeaconRefusal::kNone;
   }
   Peer* peer = FindOrInsert(beacon.vehicle);
@@ -180,9 +197,8 @@ void PeerTable::Note(const QosEvent& event, QosCounters* counters) {
 }
 
 void PeerTable::Advance(SteadyTime now, Tick tick) {
-  bool anyone_silent = false;
+  std::erase_if(peers_, [now](const Peer& peer) { return now - peer.spoke > kForgetAfter; });
   for (Peer& peer : Peers()) {
-    anyone_silent = anyone_silent || now - peer.spoke > kForgetAfter;
     while (peer.waiting_count > 0 && peer.waiting[0].tick < tick) {
       peer.beacon = peer.waiting[0];
       peer.received = peer.waiting_received[0];
@@ -193,11 +209,6 @@ void PeerTable::Advance(SteadyTime now, Tick tick) {
       --peer.waiting_count;
     }
   }
-  if (anyone_silent) ForgetSilent(now);
-}
-
-void PeerTable::ForgetSilent(SteadyTime now) {
-  std::erase_if(peers_, [now](const Peer& peer) { return now - peer.spoke > kForgetAfter; });
 }
 
 void PeerTable::LeaveWorld() {

@@ -106,9 +106,10 @@ class PeerTable {
  private:
   friend struct StateFields;  // services/snapshot
   Peer* FindOrInsert(VehicleId id);
-  void ForgetSilent(SteadyTime now);
   bool BelongsTo(Peer* peer, const ReceivedBeacon& received);
   void Store(Peer* peer, const ReceivedBeacon& received, Tick tick);
+  void NoteBeyond(Peer* peer, const ReceivedBeacon& received, const VehicleOptions& options,
+                  TrustCounters* trust);
 
   std::vector<Peer>::iterator PlaceOf(VehicleId id);
 
@@ -120,6 +121,9 @@ class PeerTable {
 
 // The lease after which another writer may speak for a silent one's id.
 inline constexpr Nanoseconds kWriterLease{250'000'000};
+// By so much a beacon may be ahead of the receiver's last scan. Peers may get theirs earlier; but
+// one that has had none for so long halts, whatever they say.
+inline constexpr std::uint32_t kMostTicksAhead = 20;
 // A peer that has not been heard for this long is forgotten.
 inline constexpr Nanoseconds kForgetAfter{30'000'000'000};
 

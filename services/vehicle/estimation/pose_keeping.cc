@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "services/types/fleet_limits.h"
 #include "services/types/math/math.h"
+#include "services/vehicle/estimation/scan_check.h"
 
 namespace giveway {
 namespace {
@@ -49,20 +51,16 @@ double Mahalanobis(Vec2 off, const PoseCovariance& c, double variance_m2) {
   return (yy * off.x * off.x - 2 * c.xy_m2 * off.x * off.y + xx * off.y * off.y) / determinant;
 }
 
-// Within what can be squared and divided by; false of NaN.
+// Somewhere in a world, and within what can be squared and divided by; false of NaN.
 bool IsUsable(const PoseFix& fix, const FixTaker& taker) {
-  constexpr double kMostCoordinate_m = 1e6;
   const Pose& pose = fix.world_from_body;
-  const auto is_between = [](double x, double least, double most) {
-    return x >= least && x <= most;
-  };
   return fix.vehicle == taker.vehicle && fix.epoch == taker.epoch && fix.tick != kNoTick &&
-         is_between(pose.position_world.x, -kMostCoordinate_m, kMostCoordinate_m) &&
-         is_between(pose.position_world.y, -kMostCoordinate_m, kMostCoordinate_m) &&
-         is_between(pose.heading_rad, -2 * kPi, 2 * kPi) &&
-         is_between(fix.sigma_position_m, kLeastFixSigma_m, kMostFixSigma_m) &&
+         IsBetween(pose.position_world.x, -kMaxCoordinate_m, kMaxCoordinate_m) &&
+         IsBetween(pose.position_world.y, -kMaxCoordinate_m, kMaxCoordinate_m) &&
+         IsBetween(pose.heading_rad, -2 * kPi, 2 * kPi) &&
+         IsBetween(fix.sigma_position_m, kLeastFixSigma_m, kMostFixSigma_m) &&
          (fix.sigma_heading_rad == 0 ||
-          is_between(fix.sigma_heading_rad, kLeastFixSigma_rad, 2 * kPi));
+          IsBetween(fix.sigma_heading_rad, kLeastFixSigma_rad, 2 * kPi));
 }
 
 // What was driven since the fix is known but for the heading it was driven by.
@@ -171,7 +169,6 @@ bool IsOutOfReach(const Innovation& innovation, const RobotModel& profile, const
 
 // Says about the same as those before it that did not fit.
 bool AgreesWith(const Disagreement& disagreement, const Innovation& innovation) {
-  if (disagreement.fixes == 0) return false;
   const Vec2 between = innovation.off_world - disagreement.off_world;
   if (!(SquaredNorm(between) <= kGate * 2 * innovation.position_m2)) return false;
   const double turned_rad = WrapAngle(innovation.off_rad - disagreement.off_rad);
@@ -183,9 +180,8 @@ bool AgreesWith(const Disagreement& disagreement, const Innovation& innovation) 
 // then both may be.
 void Weigh(const PoseFix& fix, const RobotModel& profile, const FixTaker& taker, Odometry* odometry,
            PoseKeeping* keeping) {
-  const bool newer = keeping->agreed == kNoTick || fix.tick > keeping->agreed;
   const auto innovation = InnovationOf(fix, *odometry, *keeping);
-  if (!IsUsable(fix, taker) || !newer || !innovation) {
+  if (!IsUsable(fix, taker) || fix.tick <= keeping->agreed || !innovation) {
     ++keeping->fixes_refused;
     return;
   }

@@ -14,10 +14,6 @@ constexpr double kTooNear_m = 0.4;
 // What the sensor said last. One that has missed an echo still holds it.
 Echo LastKind(const SensorView& view) { return view.missed ? Echo::kClear : view.kind; }
 
-bool HasFired(const SensorView& view, const RangeReading& reading) {
-  return reading.tick != view.tick && reading.kind != Echo::kNoData;
-}
-
 bool SaysTheSame(const SensorView& view, const RangeReading& reading) {
   if (LastKind(view) != reading.kind) return false;
   return reading.kind != Echo::kEcho || view.range_m == reading.range_m;
@@ -49,7 +45,7 @@ Tally TallyOf(const RangeView& before, const RangeScan& scan, const VehicleOptio
   Tally tally;
   for (const std::size_t i : BitsOf(enabled)) {
     const RangeReading& reading = scan.readings[i];
-    if (!HasFired(before[i], reading)) continue;
+    if (reading.tick == before[i].tick || reading.kind == Echo::kNoData) continue;  // not fired
     const std::uint32_t bit = 1U << i;
     tally.fired |= bit;
     if (reading.kind == Echo::kEcho) tally.echoes |= bit;

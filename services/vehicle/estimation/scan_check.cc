@@ -14,9 +14,6 @@ constexpr double kOvershoot = 2;
 constexpr double kMostCounted_rad = 1e9;  // thirty years at full speed
 constexpr double kBeyondRange_m = 1;      // of noise on an echo from the edge of the range
 
-// False of NaN, as every comparison below.
-bool IsBetween(double x, double low, double high) { return x >= low && x <= high; }
-
 bool IsBearing(double x) { return Magnitude(x) <= kPi + 1e-9; }
 
 bool IsPlace(Vec2 point_world) {

@@ -8,6 +8,9 @@
 
 namespace giveway {
 
+// False of NaN.
+inline bool IsBetween(double x, double low, double high) { return x >= low && x <= high; }
+
 // True if the drive can have moved so: no faster than it is by more than encoders slip and
 // overshoot.
 bool CanBeDriven(const Twist& twist, const RobotModel& profile);

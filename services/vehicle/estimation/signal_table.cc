@@ -43,31 +43,49 @@ std::optional<double> DistanceToLine(const SignalState& state, const Approach& a
   return std::nullopt;
 }
 
+double SquaredDistanceToLine(const SignalState& state, Vec2 point_world) {
+  const Vec2 line = state.line_to_world - state.line_from_world;
+  const Vec2 to = point_world - state.line_from_world;
+  const double length_m2 = SquaredNorm(line);
+  const double along = length_m2 > 0 ? std::clamp(Dot(to, line) / length_m2, 0.0, 1.0) : 0;
+  return SquaredNorm(to - along * line);
+}
+
 }  // namespace
 
-SignalTable::Head* SignalTable::Find(SignalId id, SteadyTime now) {
+SignalTable::Head* SignalTable::Find(SignalId id) {
   for (Head& head : Heads()) {
     if (head.state.id == id) return &head;
-  }
-  if (count_ < kMaxSignals) {
-    heads_[count_] = {};
-    return &heads_[count_++];
-  }
-  for (Head& head : Heads()) {
-    if (IsFresh(head.heard, now)) continue;
-    head = {};
-    return &head;
   }
   return nullptr;
 }
 
-bool SignalTable::Take(const SignalState& state, WorldEpoch epoch, SteadyTime now) {
-  if (epoch == kNoEpoch || state.epoch != epoch || !IsBelievable(state)) return false;
-  Head* head = Find(state.id, now);
-  if (head == nullptr) return false;
-  const bool known = head->state.id == state.id;
+// Of a head that is not in the table yet. A scenario may have more heads than the table, each heard
+// wherever the vehicle is: only those about it matter.
+SignalTable::Head* SignalTable::PlaceFor(const SignalState& state, SteadyTime now, Vec2 own_world) {
+  if (count_ < kMaxSignals) return &heads_[count_++];
+  Head* farthest = nullptr;
+  double most_m2 = SquaredDistanceToLine(state, own_world);
+  for (Head& head : Heads()) {
+    if (!IsFresh(head.heard, now)) return &head;
+    const double away_m2 = SquaredDistanceToLine(head.state, own_world);
+    if (away_m2 <= most_m2) continue;
+    most_m2 = away_m2;
+    farthest = &head;
+  }
+  return farthest;
+}
+
+bool SignalTable::Take(const SignalState& state, WorldEpoch epoch, SteadyTime now, Vec2 own_world) {
+  if (state.epoch != epoch || !IsBelievable(state)) return false;
+  Head* head = Find(state.id);
+  if (head == nullptr) {
+    head = PlaceFor(state, now, own_world);
+    if (head == nullptr) return false;
+    *head = {};
+  }
   // A state far older than the last is of a head that restarted its count, not a late one.
-  if (known && state.tick <= head->state.tick && IsFresh(head->heard, now)) return false;
+  if (state.tick <= head->state.tick && IsFresh(head->heard, now)) return false;
   if (state.phase != SignalPhase::kYellow) head->weighed = head->clears = false;
   head->state = state;
   head->heard = now;
@@ -89,7 +107,7 @@ std::optional<StopLine> SignalTable::MustStopAt(const Approach& approach, Steady
       head.weighed = true;
       head.clears = *distance < approach.stopping_m;
     }
-    if (phase == SignalPhase::kYellow && head.clears) continue;
+    if (head.clears) continue;
     const double free_m = *distance - kLineMargin_m;
     if (!nearest || free_m < nearest->free_m) nearest = {free_m, head.state.id, head.state.tick};
   }

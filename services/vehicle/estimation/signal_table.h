@@ -15,7 +15,7 @@
 
 namespace giveway {
 
-inline constexpr std::size_t kMaxSignals = 32;  // heads in reach at a time
+inline constexpr std::size_t kMaxSignals = 32;  // the nearest, of all that a map has
 // Three times the period at which heads speak: two in a row may be lost. A light is no beacon: what
 // it said 300 ms ago still holds, for a plan changes by the second.
 inline constexpr Nanoseconds kSignalAgeLimit{300'000'000};
@@ -47,9 +47,10 @@ struct StopLine {
 
 class SignalTable {
  public:
-  // Keeps what the head publishes if it is of this world, plausible and newer. When the table is
-  // full a silent head is evicted; false if none is silent, or the state is refused.
-  bool Take(const SignalState& state, WorldEpoch epoch, SteadyTime now);
+  // Keeps what the head publishes if it is of this world, plausible and newer. A full table gives
+  // up a silent head, or else the one whose line is farthest from the vehicle, at `own_world`.
+  // False if the state is refused, or no head is silent and none further away.
+  bool Take(const SignalState& state, WorldEpoch epoch, SteadyTime now, Vec2 own_world);
   void LeaveWorld() { count_ = 0; }
   std::uint32_t Heard() const { return count_; }  // heads of this world, so far
 
@@ -70,7 +71,8 @@ class SignalTable {
     bool clears = false;   // and the vehicle could not stop any more
   };
   std::span<Head> Heads() { return {heads_.data(), count_}; }
-  Head* Find(SignalId id, SteadyTime now);
+  Head* Find(SignalId id);
+  Head* PlaceFor(const SignalState& state, SteadyTime now, Vec2 own_world);
 
   std::array<Head, kMaxSignals> heads_{};
   std::uint32_t count_ = 0;

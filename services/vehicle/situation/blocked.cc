@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "services/vehicle/estimation/injected_mutants.h"
+#include "services/vehicle/estimation/trust.h"
+#include "services/vehicle/situation/claim.h"
 
 namespace giveway {
 namespace {
@@ -11,13 +13,16 @@ constexpr double kOccupiedWithin_m = 2;  // nearer than this, what stands on the
 
 // The nearest of those that halt for this vehicle.
 VehicleId NearestThatWaits(const Situation& s) {
-  const PeerView* nearest = nullptr;
-  for (const PeerView& view : s.near.peers) {
-    const bool waits =
-        view.fresh && view.standing && view.peer->beacon.gives_way_to == s.own.options.id;
-    if (waits && (nearest == nullptr || view.gap_m < nearest->gap_m)) nearest = &view;
-  }
+  const PeerView* nearest = NearestOf(s.near.peers, [&s](const PeerView& view) {
+    return view.fresh && view.standing && view.peer->beacon.gives_way_to == s.own.options.id;
+  });
   return nearest == nullptr ? kNoVehicle : nearest->peer->id;
+}
+
+// Whether what it says of being blocked still holds.
+bool Lends(const Peer& peer, const Moment& moment, const VehicleOptions& options) {
+  return !peer.rivalled && !IsDoubted(peer.trust, moment.now) &&
+         Age(peer, moment.now, moment.tick, options.tick_period) <= ClaimLasts(options);
 }
 
 // The vehicle that `vehicle` reports as blocking it; kNoVehicle if that is not among the relevant
@@ -29,12 +34,14 @@ VehicleId WhoBlocks(VehicleId vehicle, std::span<const PeerView> views) {
 
 }  // namespace
 
-PriorityKey ActingOrder(const PriorityKey& own, const PeerTable& peers, VehicleId own_id) {
+PriorityKey ActingOrder(const PriorityKey& own, const PeerTable& peers, const Moment& moment,
+                        const VehicleOptions& options) {
   PriorityKey acting = own;
   if (MutantActive(Mutant::kLendingDropped)) return acting;
   for (const Peer& peer : peers.Peers()) {
-    const bool blocked = peer.known && peer.beacon.blocked_by == own_id && !IsGone(peer);
-    if (blocked && PrecedesByKey(peer.beacon.order, acting)) acting = peer.beacon.order;
+    const bool blocked = peer.known && peer.beacon.blocked_by == options.id && !IsGone(peer);
+    if (!blocked || !PrecedesByKey(peer.beacon.order, acting)) continue;
+    if (Lends(peer, moment, options)) acting = peer.beacon.order;
   }
   return acting;
 }

@@ -15,8 +15,6 @@ constexpr double kAlong = 0.045;
 constexpr double kToBody = 0.25;
 // Slower than this it counts as one that may set off anywhere.
 constexpr double kStands_m_s = 0.02;
-// A vehicle exceeds its published cruise speed only by slip and rounding.
-constexpr double kSpeedSlack = 1.1;
 
 Vec2 NearestOnAxis(const Claim& claim, Vec2 point) {
   const double along = Dot(point - claim.axis.from_world, claim.axis.direction_world);
@@ -40,7 +38,7 @@ double PaceOf(const Course& course, const DriveGeometry& drive) {
 
 // How fast the sender of `beacon` may drive after unknown_s.
 double MostSpeed(const Beacon& beacon, double pace_m_s, double unknown_s) {
-  const double most = std::max(kSpeedSlack * beacon.cruise_m_s, pace_m_s);
+  const double most = std::max(kCruiseSlack * beacon.cruise_m_s, pace_m_s);
   return std::min(most, pace_m_s + beacon.acceleration_m_s2 * unknown_s);
 }
 
@@ -92,7 +90,7 @@ double ClaimLength(const Beacon& beacon, double pace_m_s, double unknown_s, doub
 bool IsClaimShort(const Beacon& beacon, double speed_m_s, double lasts_s, double reaction_s,
                   double length_m) {
   const double pace = Magnitude(speed_m_s);
-  const double most = std::max(kSpeedSlack * beacon.cruise_m_s, pace);
+  const double most = std::max(kCruiseSlack * beacon.cruise_m_s, pace);
   const double rolls_on_m =
       TurnRollsOn(kTurnWhileDriving_rad_s, beacon.drive.axle_m, beacon.deceleration_m_s2);
   const double braking_m = length_m - most * (lasts_s + reaction_s) - rolls_on_m;

@@ -20,6 +20,9 @@ namespace giveway {
 // What is not known of a pose is allowed for by so many standard deviations.
 inline constexpr double kSigmas = 2;
 
+// A vehicle exceeds its published cruise speed only by slip and rounding.
+inline constexpr double kCruiseSlack = 1.1;
+
 // For how long a vehicle keeps clear of what a beacon claims. After a longer silence nothing can
 // be said of a peer; the ultrasonics and PeerLost take over. Never shorter than a beacon counts as
 // fresh: the age of a beacon starts a tick after it, and a decision moves the tick after its own.

@@ -1,8 +1,10 @@
 #include "services/vehicle/situation/echo_trust.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "services/types/math/math.h"
+#include "services/types/time.h"
 #include "services/vehicle/estimation/bits.h"
 #include "services/vehicle/estimation/trust.h"
 #include "services/vehicle/situation/echoes.h"
@@ -10,15 +12,12 @@
 namespace giveway {
 namespace {
 
-// Of a reading's noise, in standard deviations.
-constexpr double kReadingSigmas = 4;
-
 // A body that must be heard is not, so often in a row.
 constexpr std::uint32_t kMissingTicks = 5;
 // It stands, by its own word, for longer than any smoothed closing speed remembers its driving.
-constexpr double kStands_s = 1;
+constexpr Nanoseconds kStands = std::chrono::seconds(1);
 // Longer than a beacon is fresh: within that it may have driven off without being heard to.
-constexpr double kCloses_s = 0.4;
+constexpr Nanoseconds kCloses = std::chrono::milliseconds(400);
 
 // Where a peer says its centre is, and by how much that may be off, to this vehicle.
 struct Place {
@@ -32,25 +31,20 @@ Place PlaceOf(const PeerView& view, const OwnView& s) {
           kPoseSlack_m + kErrorSigmas * (view.sigma_m + SigmaHeading(s.covariance) * Norm(centre))};
 }
 
-// True if the centre surely lies in the cone, and not so near that it is all around it.
-bool IsSquarelyIn(std::size_t sensor, const Place& place, const OwnView& s) {
-  constexpr double kTooNear_m = 0.4;
-  const Vec2 to = place.centre_body - s.options.profile.sonar[sensor].position_body;
-  if (Dot(s.cones.of[sensor].axis_body, to) < kTooNear_m) return false;
-  const double across = Magnitude(Cross(s.cones.of[sensor].axis_body, to)) + place.error_m;
-  return across * across <= s.cones.half_sine * s.cones.half_sine * SquaredNorm(to);
-}
-
-// True if a sensor that has just fired heard nothing as near as the centre, which lies in its cone:
-// whatever hides a body is nearer still. By the centre, not the shell, for the body need not be
-// round.
+// True if a sensor that has just fired heard nothing as near as the centre, which surely lies in
+// its cone and not so near that the body is all around it: whatever hides a body is nearer still.
+// By the centre, not the shell, for the body need not be round.
 bool MissesBody(std::size_t sensor, const Place& place, const OwnView& s) {
-  if (!IsSquarelyIn(sensor, place, s)) return false;
+  constexpr double kTooNear_m = 0.4;
+  const Vec2 axis_body = s.cones.of[sensor].axis_body;
+  const Vec2 to = place.centre_body - s.options.profile.sonar[sensor].position_body;
+  if (Dot(axis_body, to) < kTooNear_m) return false;
+  const double across = Magnitude(Cross(axis_body, to)) + place.error_m;
+  if (!(across * across <= s.cones.half_sine * s.cones.half_sine * SquaredNorm(to))) return false;
   const SensorView& heard = s.ranges[sensor];
   const double free_m =
       heard.kind == Echo::kClear ? s.options.profile.sonar_max_range_m : heard.range_m;
-  const double surely_m = free_m * (1 - kReadingSigmas * s.options.sonar_noise) - place.error_m;
-  const Vec2 to = place.centre_body - s.options.profile.sonar[sensor].position_body;
+  const double surely_m = free_m * (1 - kNoiseSigmas * s.options.sonar_noise) - place.error_m;
   return surely_m > 0 && SquaredNorm(to) < surely_m * surely_m;
 }
 
@@ -66,13 +60,6 @@ bool IsMissed(const PeerView& view, std::uint32_t listening, const OwnView& s) {
   return false;
 }
 
-// The only one whose body the echo of this sensor can be.
-bool IsItAlone(const PeerView& view, std::size_t sensor, std::span<const PeerView> views) {
-  return std::all_of(views.begin(), views.end(), [&](const PeerView& other) {
-    return other.peer == view.peer || (other.explains >> sensor & 1U) == 0;
-  });
-}
-
 // True where nothing that stands can seem to come nearer by more than the own speed: the vehicle
 // stands as well, or drives straight on and the cone holds what is straight ahead. Into any other
 // cone the end of a wall may come from the side, and its echo leaps.
@@ -82,23 +69,20 @@ bool ShowsMotion(std::size_t sensor, const OwnView& s) {
   return s.speed_m_s > 0 && s.cones.of[sensor].nearest_cosine >= 1;
 }
 
-// True if the source of the echo is surely within radio range: its centre lies behind its shell.
-bool IsInReach(std::size_t sensor, const OwnView& s) {
-  constexpr double kDeepest_m = 1;  // from shell to centre
-  return s.ranges[sensor].range_m + kDeepest_m < s.options.emission_radius_m;
-}
-
-// Whether its echo moves by itself.
+// Whether its echoes move by themselves: all that can be no other peer's. What one cone alone hears
+// to come nearer may be a vehicle between the two, whose own beacon is too far off to explain it.
 bool ComesNearer(const PeerView& view, std::span<const PeerView> views, const OwnView& s) {
+  constexpr double kDeepest_m = 1;  // from shell to centre
+  bool any = false;
   for (const std::size_t i : BitsOf(view.explains)) {
-    if (!IsInReach(i, s) || !ShowsMotion(i, s) || !MovesByItself(i, s)) continue;
-    if (IsItAlone(view, i, views)) return true;
+    const bool in_reach = s.ranges[i].range_m + kDeepest_m < s.options.emission_radius_m;
+    if (!in_reach || !ShowsMotion(i, s)) continue;
+    const auto can_be = [i](const PeerView& other) { return (other.explains >> i & 1U) != 0; };
+    if (std::ranges::count_if(views, can_be) > 1) continue;
+    if (!MovesByItself(i, s)) return false;
+    any = true;
   }
-  return false;
-}
-
-std::uint32_t TicksOf(double time_s, const VehicleOptions& options) {
-  return static_cast<std::uint32_t>(time_s / Seconds(options.tick_period));
+  return any;
 }
 
 }  // namespace
@@ -106,8 +90,11 @@ std::uint32_t TicksOf(double time_s, const VehicleOptions& options) {
 void JudgeEchoes(std::span<const PeerView> views, bool someone_lost, const OwnView& s,
                  TrustCounters* counters) {
   if (s.run_state != RunState::kRunning || !s.new_tick) return;
-  const std::uint32_t stands = TicksOf(kStands_s, s.options);
-  const std::uint32_t closes = TicksOf(kCloses_s + 2 * Seconds(s.options.sonar_refresh), s.options);
+  const std::uint32_t stands = TicksCovering(kStands, s.options.tick_period);
+  // At least one: in ticks that are longer, it must have been shown all the same.
+  const auto closes = std::max<std::uint32_t>(
+      1,
+      static_cast<std::uint32_t>((kCloses + 2 * s.options.sonar_refresh) / s.options.tick_period));
   // Ultrasonics that miss obstacles, by their slant or by chance, or take a neighbour's ping for an
   // echo, are no evidence against a peer.
   const bool believes_sonar = !HasImperfectSonar(s.options);

@@ -9,14 +9,11 @@ namespace giveway {
 namespace {
 
 constexpr double kPathMargin_m = 0.05;   // on either side of the body
-constexpr double kSameBody_m = 0.25;     // an echo this near to the expected range is that body
 constexpr double kNearer_m = 0.06;       // but not nearer than by this and what is unsure
 constexpr double kOwnMotion_m_s = 0.15;  // closing speed the own motion may leave unexplained
 // Readings in a row before a closing speed counts; where each takes its time, fewer must do.
 constexpr std::uint32_t kMotionStreak = 4;
 constexpr std::uint32_t kSlowMotionStreak = 2;
-// Standard deviations of a closing speed that the readings' noise may leave unexplained.
-constexpr double kNoiseSigmas = 4;
 // A cone with a direction nearer to the heading than 60 degrees looks ahead.
 constexpr double kLooksAhead = 0.5;
 
@@ -137,6 +134,12 @@ std::optional<double> FreeBeforeDisc(Vec2 centre_body, double sum_of_radii) {
   return std::max(0.0, centre_body.x - Sqrt(half));
 }
 
+std::optional<double> FreeBeforePoint(Vec2 point_body, double body_radius_m, double narrower_m) {
+  const auto free_m = FreeBeforeDisc(point_body, body_radius_m - narrower_m);
+  if (free_m && *free_m <= 0 && Magnitude(point_body.y) >= body_radius_m) return std::nullopt;
+  return free_m;
+}
+
 void HearEchoes(const RangeView& ranges, Tick tick, const VehicleOptions& options,
                 HeardEchoes* heard) {
   heard->count = 0;
@@ -147,12 +150,12 @@ void HearEchoes(const RangeView& ranges, Tick tick, const VehicleOptions& option
   }
 }
 
-std::uint32_t EchoesOf(const CarriedPeer& peer, const OwnView& s) {
+PeerEchoes EchoesOf(const CarriedPeer& peer, const OwnView& s) {
   const HeardEchoes& echoes = s.echoes;
   const double radius_m = peer.peer->beacon.body_radius_m;
   const Vec2 centre_now = InBody(s, peer.position_world);
   const double unsure_m = kNearer_m + kSigmas * peer.sigma_m;
-  std::uint32_t explains = 0;
+  PeerEchoes of_peer;
   for (std::size_t k = 0; k < echoes.count; ++k) {
     const std::size_t sensor = echoes.sensor[k];
     const double age_s = echoes.age_s[k];
@@ -164,11 +167,12 @@ std::uint32_t EchoesOf(const CarriedPeer& peer, const OwnView& s) {
     const double turned = age_s * Magnitude(s.turn_rad_s);
     const double cone_rad = s.options.profile.sonar_half_angle_rad + turned;
     const double by_noise_m = kNoiseSigmas * s.options.sonar_noise * range_m;
-    if (IsEchoOf(sight, radius_m, range_m, unsure_m + by_noise_m, cone_rad, cone)) {
-      explains |= 1U << sensor;
-    }
+    if (!IsEchoOf(sight, radius_m, range_m, unsure_m + by_noise_m, cone_rad, cone)) continue;
+    of_peer.sensors |= 1U << sensor;
+    const double nearer_m = LeastRange(Norm(to_centre), radius_m, 0) - by_noise_m - range_m;
+    if (nearer_m > kNearer_m) of_peer.nearer_m = std::max(of_peer.nearer_m, nearer_m);
   }
-  return explains;
+  return of_peer;
 }
 
 namespace {
@@ -247,9 +251,7 @@ bool IsFrontAtRim(double along_m_s, double driving_m_s, double cosine,
 bool MovesByItself(std::size_t sensor, const OwnView& s) {
   const SensorView& view = s.ranges[sensor];
   const bool slow = s.options.sonar_refresh.count() > 0;
-  if (view.kind != Echo::kEcho || view.streak < (slow ? kSlowMotionStreak : kMotionStreak)) {
-    return false;
-  }
+  if (view.streak < (slow ? kSlowMotionStreak : kMotionStreak)) return false;
   const RobotModel& profile = s.options.profile;
   // The closing speed is of the past, and so is the motion that explains it.
   const double driving = std::max(s.speed_m_s, view.own.forward_m_s);

@@ -13,13 +13,25 @@ namespace giveway {
 void HearEchoes(const RangeView& ranges, Tick tick, const VehicleOptions& options,
                 HeardEchoes* heard);
 
-// Bit i is set if the echo of sensor i is where the peer's body would have echoed when the sensor
-// fired.
-std::uint32_t EchoesOf(const CarriedPeer& peer, const OwnView& s);
+// What is heard or seen this near to a peer's shell is that body.
+inline constexpr double kSameBody_m = 0.25;
+// Of a reading's noise, in standard deviations: beyond them it is none.
+inline constexpr double kNoiseSigmas = 4;
+
+// The echoes that are where a peer's body would have echoed when the sensors fired.
+struct PeerEchoes {
+  std::uint32_t sensors = 0;  // bit i: of sensor i
+  double nearer_m = 0;        // by how much the body is nearer than its beacon says, at the least
+};
+PeerEchoes EchoesOf(const CarriedPeer& peer, const OwnView& s);
 
 // How far straight on until the own disc touches a disc at `centre_body`; empty if it passes with
 // a margin to spare. `sum_of_radii` is that of both.
 std::optional<double> FreeBeforeDisc(Vec2 centre_body, double sum_of_radii);
+
+// The same of a point, for a body that is narrower by so much than its radius. Places to its side
+// do not count where it is near: along a wall the vehicle may continue.
+std::optional<double> FreeBeforePoint(Vec2 point_body, double body_radius_m, double narrower_m = 0);
 
 // Left between the shell and what an echo may be of.
 inline constexpr double kStandOff_m = 0.15;

@@ -101,20 +101,13 @@ bool IsOutside(const PeerView& view) {
   return view.conflict && view.conflict->one_lane && view.conflict->own.begin_m > 0;
 }
 
-// In a one-lane section, and the peer does not come towards it there: it drives out, for more wait
-// for that than for the peer.
-bool LeavesSection(const PeerView& view, const OwnView& s) {
+// It has entered, or drives out of the peer's path; or it is in a one-lane section, and the peer
+// does not come towards it there: more wait for that than for the peer.
+bool DrivesOut(const PeerView& view, const OwnView& s) {
+  if (view.peer->encounter.entered || view.peer->encounter.clears) return true;
   if (view.conflict && view.conflict->one_lane) return false;
   return std::ranges::any_of(s.lanes.All(),
                              [](const LaneAhead& lane) { return lane.own.begin_m <= 0; });
-}
-
-// A vehicle that blocks one with priority, by its body or by standing on its goal, gives way by
-// driving on: also at the far end of a queue in which each blocks the next. Not into a one-lane
-// section, where it would block more.
-bool IsInPath(const PeerView& view, std::span<const PeerView> views, const OwnView& s) {
-  if (IsOutside(view)) return false;
-  return IsBehind(view.peer->beacon.blocked_by, s.options.id, views) || IsOnGoalOf(view, s);
 }
 
 // The vehicle without priority stops at the gate, or where only braking now is early enough.
@@ -125,13 +118,6 @@ bool SecondMustStop(const PeerView& view, const OwnView& s) {
   const double critical_m = CriticalDistance(s, view);
   return (view.gate_gap_m <= critical_m && view.conflict->own.begin_m <= critical_m) ||
          HoldsBefore(view) <= OwnStoppingDistance(s);
-}
-
-// The vehicle with priority needs the other's grant, or to be through before it; the lecture's
-// behaviour trusts the order alone.
-bool FirstMayGo(const PeerView& view, const OwnView& s) {
-  if (MutantActive(Mutant::kGrantNotNeeded)) return true;
-  return s.options.behaviour == Behaviour::kLectureYield || view.grants || IsThroughFirst(view, s);
 }
 
 // A peer that a light held let this vehicle go: once it cannot stop before the conflict any more
@@ -148,12 +134,6 @@ bool EntersBox(const PeerView& view, const OwnView& s) {
   // A one-lane section may start later than the box that it is part of.
   const double before_m = IsOutside(view) ? view.conflict->own.begin_m : HoldsBefore(view);
   return s.speed_m_s >= kStandingSpeed_m_s && before_m <= OwnStoppingDistance(s);
-}
-
-// Standing before the box again, the vehicle has not entered it.
-bool HasLeftBox(const PeerView& view, const OwnView& s) {
-  if (!view.conflict) return true;
-  return s.speed_m_s < kStandingSpeed_m_s && view.box_begin_m > 0;
 }
 
 // The peer has priority, but stands before the crossing because of a third vehicle: until that one
@@ -187,33 +167,31 @@ bool FollowsIn(const PeerView& view, std::span<const PeerView> views, const OwnV
 // vehicle.
 bool Holds(const PeerView& view, std::span<const PeerView> views, const OwnView& s) {
   const bool held = view.peer->encounter.holds;
-  const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
+  const bool stays = held || MustBrakeNow(view, s);
+  const Behaviour behaviour = s.options.behaviour;
   if (view.lost) {
     if (view.peer->encounter.released || MutantActive(Mutant::kSilenceIsConsent)) return false;
-    return held || s.options.behaviour == Behaviour::kLectureYield || MustBrakeNow(view, s);
+    return stays || behaviour == Behaviour::kLectureYield;
   }
-  if (view.peer->encounter.clears) return false;
-  if (view.peer->encounter.entered || LeavesSection(view, s)) return false;
-  if (IsOutside(view) && view.conflict->peer.begin_m <= 0) {
-    return !IsGoneInTime(view, s) && (held || MustBrakeNow(view, s));
+  if (DrivesOut(view, s)) return false;
+  if (IsOutside(view) && view.conflict->peer.begin_m <= 0) return stays && !IsGoneInTime(view, s);
+  if (!view.has_priority) {
+    // The first needs the other's grant, or to be through before it; the lecture's behaviour trusts
+    // the order alone.
+    const bool trusts = behaviour == Behaviour::kLectureYield || view.grants;
+    if (trusts || MutantActive(Mutant::kGrantNotNeeded)) return false;
+    return stays && !IsThroughFirst(view, s);
   }
-  if (view.has_priority) {
-    if (IsOutside(view) && FollowsIn(view, views, s)) return false;
-    if (cooperative && (IsGoneInTime(view, s) || MayCrossBefore(view, s))) return false;
-    return !MustClear(view, s) && (held || SecondMustStop(view, s));
-  }
-  if (FirstMayGo(view, s)) return false;
-  return held || MustBrakeNow(view, s);
+  if (IsOutside(view) && FollowsIn(view, views, s)) return false;
+  const bool cooperative = behaviour == Behaviour::kCooperative;
+  if (cooperative && (IsGoneInTime(view, s) || MayCrossBefore(view, s))) return false;
+  return !MustClear(view, s) && (held || SecondMustStop(view, s));
 }
 
 }  // namespace
 
 bool CanGiveWay(const PeerView& view, const OwnView& s) {
-  const Encounter& encounter = view.peer->encounter;
-  if (!view.has_priority || encounter.entered || encounter.clears || MustClear(view, s) ||
-      LeavesSection(view, s)) {
-    return false;
-  }
+  if (!view.has_priority || DrivesOut(view, s) || MustClear(view, s)) return false;
   const bool stands = s.speed_m_s < kStandingSpeed_m_s;
   return stands || !view.conflict || view.conflict->own.begin_m > OwnStoppingDistance(s) - 0.1;
 }
@@ -237,12 +215,17 @@ void BeginOrEnd(const PeerView& view, std::span<const PeerView> views, const Own
       encounter = {};
     }
   }
+  // A vehicle that blocks one with priority, by its body or by standing on its goal, gives way by
+  // driving on: also at the far end of a queue in which each blocks the next. Not into a one-lane
+  // section, where it would block more.
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
-  if (cooperative && encounter.active && !view.lost && view.has_priority &&
-      IsInPath(view, views, s)) {
+  if (cooperative && encounter.active && !view.lost && view.has_priority && !IsOutside(view) &&
+      (IsBehind(view.peer->beacon.blocked_by, s.options.id, views) || IsOnGoalOf(view, s))) {
     encounter.clears = true;
   }
-  if (!encounter.active || HasLeftBox(view, s)) encounter.entered = false;
+  // Standing before the box again, the vehicle has not entered it.
+  const bool stands_before = s.speed_m_s < kStandingSpeed_m_s && view.box_begin_m > 0;
+  if (!encounter.active || !view.conflict || stands_before) encounter.entered = false;
   if (encounter.active && view.conflict && EntersOnSignal(view, s)) encounter.entered = true;
 }
 

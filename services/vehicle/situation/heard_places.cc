@@ -9,8 +9,6 @@
 namespace giveway {
 namespace {
 
-// A reading's noise is allowed for by so many standard deviations.
-constexpr double kRangeSigmas = 2;
 // What is heard this near to a peer's shell is the peer.
 constexpr double kRoundPeer_m = 0.15;
 // No cone's arc reaches a peer further away than this.
@@ -62,7 +60,7 @@ HeardCone HeardBy(std::size_t sensor, bool explained, const OwnView& s) {
           .half_sine = s.cones.half_sine,
           .echo = echo,
           .range_m = view.range_m,
-          .unsure_m = kRangeSigmas * s.options.sonar_noise * view.range_m,
+          .unsure_m = kSigmas * s.options.sonar_noise * view.range_m,
           .enters = !explained,
           .moves = echo && !s.turns && MovesByItself(sensor, s)};
 }
@@ -104,9 +102,8 @@ std::optional<double> FreeOfPlaces(Vec2 direction_body, const Situation& s) {
   std::optional<double> nearest_m;
   for (const Vec2 place : s.places) {
     const Vec2 ahead = {Dot(direction_body, place), Cross(direction_body, place)};
-    const auto free_m = FreeBeforeDisc(ahead, body_m - kNarrower_m);
-    if (!free_m || (*free_m <= 0 && Magnitude(ahead.y) >= body_m)) continue;
-    if (!nearest_m || *free_m < *nearest_m) nearest_m = free_m;
+    const auto free_m = FreeBeforePoint(ahead, body_m, kNarrower_m);
+    if (free_m && (!nearest_m || *free_m < *nearest_m)) nearest_m = free_m;
   }
   return nearest_m;
 }

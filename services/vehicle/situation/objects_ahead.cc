@@ -10,7 +10,6 @@ namespace {
 
 // A rate the own motion leaves unexplained: accelerating within a tick, rounding.
 constexpr double kStandsStill_m_s = 0.1;
-constexpr double kOnShell_m = 0.25;          // an object this near to a peer's shell is the peer
 constexpr double kCameraSlack_rad = 0.0175;  // a degree
 
 template <typename Scan>
@@ -53,18 +52,9 @@ bool IsKnownPeer(const SeenObjects& seen, Vec2 point_world, const Situation& s) 
       std::any_of(s.near.peers.begin(), s.near.peers.end(), [&](const PeerView& view) {
         const double from_shell_m =
             Norm(point_world - view.position_world) - view.peer->beacon.body_radius_m;
-        return view.believed && from_shell_m < kOnShell_m && from_shell_m > -kOnShell_m;
+        return view.believed && from_shell_m < kSameBody_m && from_shell_m > -kSameBody_m;
       });
   return on_shell && LooksLikeVehicle(seen.camera, point_world, s.own);
-}
-
-// How far straight on until the own shell touches the point; empty if it passes. A point already
-// within the margin is judged without one: along a wall the vehicle may continue.
-std::optional<double> FreeBefore(Vec2 point_body, double body_radius_m) {
-  const auto free_m = FreeBeforeDisc(point_body, body_radius_m);
-  const bool beside = point_body.y >= body_radius_m || point_body.y <= -body_radius_m;
-  if (free_m && *free_m <= 0 && beside) return std::nullopt;
-  return free_m;
 }
 
 // Carries the object seen at `range_m` and `bearing_rad` on by `moved_m` towards where the sensor
@@ -77,7 +67,7 @@ void Consider(const SeenObjects& seen, const HeldScan<Scan>& held, double range_
   const double nearest_m = std::min(range_m, s.own.options.profile.body_radius_m);
   const Vec2 then_body = At(std::max(nearest_m, range_m - moved_m), bearing_rad);
   const Vec2 then = InBody(s.own, ToWorld(held.world_from_body, then_body));
-  const auto free_m = FreeBefore(then, s.own.options.profile.body_radius_m);
+  const auto free_m = FreeBeforePoint(then, s.own.options.profile.body_radius_m);
   if (!free_m || (*nearest && (*nearest)->free_m <= *free_m)) return;
   const Vec2 now_world = ToWorld(held.world_from_body, At(range_m, bearing_rad));
   if (!IsKnownPeer(seen, now_world, s)) *nearest = ObjectAhead{*free_m, held.scan.tick};

@@ -31,8 +31,8 @@ double SigmaAtMost(const Beacon& beacon, double moved_m, const OwnView& s) {
 
 // How near the two centres may come: both bodies, a margin, and what is not known for sure.
 double Reach(const Beacon& beacon, double sigma_m, const OwnView& s) {
-  constexpr double kMargin_m = 0.1;
-  return s.options.profile.body_radius_m + beacon.body_radius_m + kMargin_m + kSigmas * sigma_m;
+  return s.options.profile.body_radius_m + beacon.body_radius_m + kBodiesMargin_m +
+         kSigmas * sigma_m;
 }
 
 // True if one drives behind the other in the same lane: then distance decides, not right of way.
@@ -54,19 +54,16 @@ bool Follows(const CarriedPeer& view, bool standing, const OwnView& s) {
          Dot(s.path.direction_world, view.path_world) >= kSameDirection * path_m;
 }
 
-// The two keys differ by their ids alone.
-bool IsTie(const PriorityKey& a, const PriorityKey& b) {
-  return a.waited_ticks == b.waited_ticks && a.speed_bucket == b.speed_bucket;
-}
-
 // Compares the published priority keys. A vehicle stopped at a red light yields to one that is not:
 // it could only block traffic that has green.
 bool PeerHasPriority(const HeardPeer& view, bool at_signal, const OwnView& s) {
   if (at_signal != s.at_signal) return s.at_signal;
   const PriorityKey& peers = view.peer->beacon.order;
   if (MutantActive(Mutant::kPriorityReversed)) return PrecedesByKey(s.order, peers);
-  if (MutantActive(Mutant::kTieYieldsBoth) && IsTie(s.order, peers)) return true;
-  if (MutantActive(Mutant::kTieFreesBoth) && IsTie(s.order, peers)) return false;
+  const bool tie =
+      s.order.waited_ticks == peers.waited_ticks && s.order.speed_bucket == peers.speed_bucket;
+  if (tie && MutantActive(Mutant::kTieYieldsBoth)) return true;
+  if (tie && MutantActive(Mutant::kTieFreesBoth)) return false;
   return giveway::HasPriority(peers, view.peer->id, s.order, s.options.id);
 }
 
@@ -78,23 +75,15 @@ bool WaitsAtSignal(const RelatedPeer& view, const OwnView& s) {
          view.conflict->peer.begin_m >= StoppingDistanceOf(view, s);
 }
 
-// It stands, comes later in the order and says so: it gives way to any that comes first. Before a
-// one-lane section it need not say so, for it stops there again.
-bool Halts(const RelatedPeer& view) {
-  if (!view.standing || view.has_priority) return false;
-  const bool one_lane = view.crossing && view.crossing->one_lane;
-  return one_lane || IsGiveWay(view.peer->beacon.rule);
-}
-
-// True if no point of the peer's path comes within reach_m of the own path.
-bool StaysAway(Vec2 from_world, Vec2 to_world, double reach_m, const Path& own) {
+// False if no point of the peer's path comes within reach_m of the own path.
+bool MayComeNear(Vec2 from_world, Vec2 to_world, double reach_m, const Path& own) {
   const Vec2 from = from_world - own.from_world;
   const Vec2 to = to_world - own.from_world;
   const double from_across_m = Cross(own.direction_world, from);
   const double to_across_m = Cross(own.direction_world, to);
-  if (from_across_m > reach_m && to_across_m > reach_m) return true;
-  if (from_across_m < -reach_m && to_across_m < -reach_m) return true;
-  return Dot(own.direction_world, from) < -reach_m && Dot(own.direction_world, to) < -reach_m;
+  if (from_across_m > reach_m && to_across_m > reach_m) return false;
+  if (from_across_m < -reach_m && to_across_m < -reach_m) return false;
+  return !(Dot(own.direction_world, from) < -reach_m && Dot(own.direction_world, to) < -reach_m);
 }
 
 // Out of reach by this margin holds however it is rounded, and in whatever direction the peer turns
@@ -165,7 +154,7 @@ void Measure(CarriedPeer* measured, const OwnView& s) {
   view.sigma_m = SigmaPosition(view.apart);
   const double well_away_m = Reach(beacon, view.sigma_m, s) + kWellAway_m;
   view.path_is_near = s.options.behaviour != Behaviour::kCooperative ||
-                      !StaysAway(view.position_world, beacon.toward_world, well_away_m, s.path);
+                      MayComeNear(view.position_world, beacon.toward_world, well_away_m, s.path);
   if (!view.path_is_near) return;
   view.path_m = Norm(view.path_world);
   view.path_direction_world =
@@ -208,7 +197,7 @@ bool IsRelevant(const Peer& peer, bool fresh, const OwnView& s) {
   if (MayMeetInOneLane(beacon, moved_m, s)) return true;
   const double sigma_m = SigmaAtMost(beacon, moved_m, s);
   const double reach_m = Reach(beacon, sigma_m, s) + moved_m + kWellAway_m;
-  if (!StaysAway(from_world, beacon.toward_world, reach_m, s.path)) return true;
+  if (MayComeNear(from_world, beacon.toward_world, reach_m, s.path)) return true;
   const double short_m = (near_m - s.slows_m - KeptFrom(beacon, sigma_m, s)) / 2;
   return !IsClaimShort(beacon, speed_m_s, Seconds(ClaimLasts(s.options)), s.reaction_s, short_m) &&
          !IsClaimFar(beacon, speed_m_s, sigma_m, UnknownSeconds(beacon, s), s);
@@ -239,9 +228,13 @@ void Relate(RelatedPeer* related, const OwnView& s) {
   RelatedPeer& view = *related;
   const Beacon& beacon = view.peer->beacon;
   view.believed = view.fresh && !IsDoubted(view.peer->trust, s.now);
+  const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
+  const PeerEchoes echoes = view.fresh ? EchoesOf(view, s) : PeerEchoes{};
+  view.explains = echoes.sensors;
+  // What both poses may be off by counts once: an echo that is nearer by it is no other body's.
+  if (cooperative) view.sigma_m = std::max(view.sigma_m, echoes.nearer_m / kSigmas);
   view.lost = IsLost(*view.peer, view.fresh);
   view.standing = Magnitude(view.speed_m_s) < kStandingSpeed_m_s;
-  const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   view.at_signal = cooperative && view.believed && beacon.rule == Rule::kSignal;
   view.has_priority = PeerHasPriority(view, view.at_signal, s);
 
@@ -266,9 +259,11 @@ void Relate(RelatedPeer* related, const OwnView& s) {
   const bool steered_round = cooperative && stands && !view.has_priority && !one_lane;
   if (!steered_round) view.conflict = view.crossing;
   view.free_m = FreeAlong(view, s.forward_world, s);
+  // It stands, comes later in the order and says so: it gives way to any that comes first. Before a
+  // one-lane section it need not say so, for it stops there again.
+  const bool halts = view.standing && !view.has_priority && (one_lane || IsGiveWay(beacon.rule));
   view.grants = view.believed && (beacon.gives_way_to == s.options.id || StaysPut(beacon) ||
-                                  Halts(view) || WaitsAtSignal(view, s));
-  view.explains = view.fresh ? EchoesOf(view, s) : 0;
+                                  halts || WaitsAtSignal(view, s));
 }
 
 }  // namespace

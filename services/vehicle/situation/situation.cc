@@ -41,11 +41,10 @@ double StoppingDistanceOf(const CarriedPeer& view, const OwnView& s) {
 }
 
 double CriticalDistance(const OwnView& s, const CarriedPeer& view) {
-  constexpr double kMargin_m = 0.1;
   const double own = StoppingDistance(std::max(0.0, s.speed_m_s), s.reaction_s,
                                       s.options.profile.deceleration_m_s2);
   const double both = own + StoppingDistanceOf(view, s);
-  return std::max(s.options.gate_enter_m, both + kMargin_m + kSigmas * SigmaBetween(view));
+  return std::max(s.options.gate_enter_m, both + kBodiesMargin_m + kSigmas * SigmaBetween(view));
 }
 
 double RoomBeside(const CarriedPeer& view, const OwnView& s) {

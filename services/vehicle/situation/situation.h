@@ -161,7 +161,7 @@ struct LanesAhead {
 struct OwnCourse {
   Path path;                      // towards the goal, or straight on
   double path_rad = 0;            // the heading along it, world frame
-  double distance_to_goal_m = 0;  // or to the next waypoint; huge without either
+  double distance_to_goal_m = 0;  // or to the next waypoint; kFar_m without either
   bool stops_there = false;       // at the goal; a waypoint is driven through
   bool arrived = false;
   LanesAhead lanes;
@@ -242,10 +242,10 @@ inline constexpr double kStandingSpeed_m_s = 0.01;
 inline constexpr double kAtTarget_m = 0.05;
 // Turning no faster, it drives straight on or stands.
 inline constexpr double kTurning_rad_s = 0.02;
-// The distance to a goal that there is none of.
-inline constexpr double kNoGoal_m = 1e6;
 // Kept between two shells beyond what geometry and uncertainty ask for.
 inline constexpr double kPassingMargin_m = 0.2;
+// Between two bodies that are not to meet, on top of what is not known.
+inline constexpr double kBodiesMargin_m = 0.1;
 // Kept from a claim on top of the uncertainty: steering bends the straight path a little.
 inline constexpr double kClearance_m = 0.05;
 // Left between where the vehicle stops and where it must have stopped.

@@ -1,6 +1,7 @@
 #include "services/vehicle/situation/sonar_trust.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "services/types/math/math.h"
 #include "services/vehicle/estimation/bits.h"
@@ -13,9 +14,23 @@ namespace {
 constexpr std::uint32_t kShownTicks = 5;
 // From a centre to its shell, of any robot of the fleet.
 constexpr double kBody_m = 0.5;
-// A world removes a silent body after remove_after_s, 5 s by default, and one that leaves at once.
-constexpr double kStillThere_s = 4;
+// A world removes a silent body silent_body_stays after its last command. The last beacon heard may
+// be older than that command, and it may be younger: by so much, or by half of it where that is
+// less.
+constexpr Nanoseconds kRemovalSlack = std::chrono::seconds(2);
+// It removes one that leaves at once.
 constexpr double kJustLeft_s = 1;
+// One that only its radio silences drives on. Where it is after so long, nothing says.
+constexpr double kDrivesOn_s = 4;
+
+// After this a silent body may have been removed, and after RemovedAfter it has been.
+double StillThere(const VehicleOptions& options) {
+  const Nanoseconds stays = options.silent_body_stays;
+  return Seconds(std::max(stays - kRemovalSlack, stays / 2));
+}
+double RemovedAfter(const VehicleOptions& options) {
+  return Seconds(options.silent_body_stays + kRemovalSlack);
+}
 
 double SilentSeconds(const PeerView& view, const OwnView& s) {
   return Seconds(Age(*view.peer, s.now, s.tick, s.options.tick_period));
@@ -54,10 +69,10 @@ bool CanHaveBeen(const Disc& place, std::size_t sensor, const OwnView& s) {
 }
 
 // True of one that the world may have taken away just now: it left, or was silent for long.
-bool MayBeTakenAway(const PeerView& view, double silent_s) {
+bool MayBeTakenAway(const PeerView& view, double silent_s, const VehicleOptions& options) {
   if (view.fresh) return false;
   if (IsGone(*view.peer)) return silent_s <= kJustLeft_s;
-  return silent_s > kStillThere_s && silent_s <= 2 * kStillThere_s;
+  return silent_s > StillThere(options) && silent_s <= RemovedAfter(options);
 }
 
 // True if an echo vanished that no body can have been that the world took away: whatever it was,
@@ -66,7 +81,8 @@ bool HasVanished(std::span<const PeerView> views, const OwnView& s) {
   const auto was_taken_away = [&](std::size_t sensor) {
     return std::ranges::any_of(views, [&](const PeerView& view) {
       const double silent_s = SilentSeconds(view, s);
-      return MayBeTakenAway(view, silent_s) && CanHaveBeen(WhereItIs(view, silent_s, s), sensor, s);
+      return MayBeTakenAway(view, silent_s, s.options) &&
+             CanHaveBeen(WhereItIs(view, silent_s, s), sensor, s);
     });
   };
   for (const std::size_t i : BitsOf(s.change.echoes)) {
@@ -79,9 +95,9 @@ bool HasVanished(std::span<const PeerView> views, const OwnView& s) {
 // one of their cones, or cannot have left those ahead since it fell silent.
 bool MustBeHeard(const PeerView& view, const OwnView& s) {
   if (IsGone(*view.peer)) return false;
-  if (view.fresh && view.peer->trust.missing_ticks > 0) return true;
+  if (view.peer->trust.missing_ticks > 0) return true;  // then it is fresh: JudgeEchoes
   const double silent_s = SilentSeconds(view, s);
-  return silent_s <= kStillThere_s && MustBeAhead(WhereItIs(view, silent_s, s), s);
+  return silent_s <= StillThere(s.options) && MustBeAhead(WhereItIs(view, silent_s, s), s);
 }
 
 // True if working ultrasonics hear something else from tick to tick. Side cones of one that drives
@@ -127,7 +143,7 @@ void Note(ScanNews news, std::uint32_t shown, SonarDoubt* doubt) {
 // Where a transducer can hear it, when it fell silent. However long ago that was: one without
 // ultrasonics does not see that the world has taken it away.
 bool MayBeNear(const PeerView& view, const OwnView& s) {
-  const double silent_s = std::min(SilentSeconds(view, s), kStillThere_s);
+  const double silent_s = std::min(SilentSeconds(view, s), kDrivesOn_s);
   const Disc place = WhereItIs(view, silent_s, s);
   const double hears_m = s.options.profile.sonar_max_range_m + 2 * kBody_m;  // centre to centre
   return Norm(place.centre_body) - place.radius_m <= hears_m;

@@ -4,11 +4,11 @@
 
 #include "services/types/math/math.h"
 #include "services/vehicle/estimation/injected_mutants.h"
+#include "services/vehicle/situation/claim.h"
 
 namespace giveway {
 namespace {
 
-constexpr double kPeerSpeedSlack = 1.1;    // a peer's seed, slip and rounding
 constexpr double kThroughMargin_s = 0.05;  // between leaving the conflict and its coming
 constexpr double kGoneMargin_s = 0.3;      // it has left, and a beacon has reported so
 
@@ -32,20 +32,6 @@ Conflict InTurn(const Conflict& conflict, Vec2 own_path, Vec2 peer_path) {
   return Shrunk(conflict, own_path, peer_path);
 }
 
-// Who is in a one-lane section is waited for by all that come towards it, whatever the order: it is
-// enough to be in before the peer, hearing of that, could not stop outside any more.
-bool IsInFirst(const RelatedPeer& view, const OwnView& s) {
-  const double fastest_m_s = FastestOf(view);
-  if (fastest_m_s <= 0) return true;
-  const Conflict& conflict = *view.conflict;
-  const Beacon& beacon = view.peer->beacon;
-  const double own_s = SecondsTo(conflict.own.begin_m, s);
-  const double stops_m = StoppingDistance(fastest_m_s, s.reaction_s, beacon.deceleration_m_s2);
-  const double peer_s = TimeToCover(conflict.peer.begin_m - stops_m, std::max(0.0, view.speed_m_s),
-                                    fastest_m_s, beacon.acceleration_m_s2);
-  return own_s + kOneLaneHeard_s < peer_s;
-}
-
 }  // namespace
 
 double SecondsTo(double distance_m, const OwnView& s) {
@@ -54,20 +40,29 @@ double SecondsTo(double distance_m, const OwnView& s) {
 }
 
 double FastestOf(const CarriedPeer& view) {
-  return kPeerSpeedSlack * std::max(view.peer->beacon.cruise_m_s, view.speed_m_s);
+  return kCruiseSlack * std::max(view.peer->beacon.cruise_m_s, view.speed_m_s);
 }
 
 bool IsThroughFirst(const RelatedPeer& view, const OwnView& s) {
   if (!view.conflict || MutantActive(Mutant::kThroughFirstGuessed)) return true;
-  if (view.conflict->one_lane) return IsInFirst(view, s);
+  const double fastest_m_s = FastestOf(view);
+  if (fastest_m_s <= 0) return true;
   const Beacon& beacon = view.peer->beacon;
+  const auto peer_takes_s = [&](double distance_m) {
+    return TimeToCover(distance_m, std::max(0.0, view.speed_m_s), fastest_m_s,
+                       beacon.acceleration_m_s2);
+  };
+  // Who is in a one-lane section is waited for by all that come towards it, whatever the order: it
+  // is enough to be in before the peer, hearing of that, could not stop outside any more.
+  if (view.conflict->one_lane) {
+    const double stops_m = StoppingDistance(fastest_m_s, s.reaction_s, beacon.deceleration_m_s2);
+    return SecondsTo(view.conflict->own.begin_m, s) + kOneLaneHeard_s <
+           peer_takes_s(view.conflict->peer.begin_m - stops_m);
+  }
   const Conflict conflict =
       InTurn(*view.conflict, s.path.direction_world, view.path_direction_world);
   const double own_s = SecondsTo(conflict.own.end_m, s);
-  const double fastest = FastestOf(view);
-  if (fastest <= 0) return true;
-  const double peer_s = TimeToCover(conflict.peer.begin_m, std::max(0.0, view.speed_m_s), fastest,
-                                    beacon.acceleration_m_s2);
+  const double peer_s = peer_takes_s(conflict.peer.begin_m);
   return own_s + kThroughMargin_s < peer_s;
 }
 

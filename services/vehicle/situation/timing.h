@@ -9,7 +9,7 @@ namespace giveway {
 // How long this vehicle takes to drive so far, s; 0 for what lies behind.
 double SecondsTo(double distance_m, const OwnView& s);
 
-// How fast the peer may drive soon: a tenth above its cruise speed, for slip and rounding.
+// How fast the peer may drive soon: above its cruise speed by kCruiseSlack.
 double FastestOf(const CarriedPeer& view);
 
 // True if, by every path of the peer at up to a tenth above its cruise speed, this vehicle leaves

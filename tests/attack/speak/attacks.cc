@@ -205,6 +205,7 @@ void SybilJoins(const Orders& orders) {
     if (i % 500 == 0) std::this_thread::sleep_for(milliseconds(10));
   }
   std::printf("%u joins\n", i);
+  std::fflush(stdout);
   std::this_thread::sleep_for(milliseconds(500));
 }
 

@@ -48,6 +48,7 @@ const ofAFleet = {
   files_the_projects: references.filesAreTheProjects,
   variables_known: environment.variablesAreKnown,
   variables_agree: environment.variablesAgree,
+  orders_sealed: environment.ordersCanBeSealed,
   arguments_filled: environment.argumentsAreFilled,
   domain_ports_open: network.domainPortsAreOpen,
   other_ports_shut: network.otherPortsAreShut,

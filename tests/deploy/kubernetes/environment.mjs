@@ -47,6 +47,16 @@ export function variablesAgree(fleet) {
   });
 }
 
+// The key of orders is given to all that take them and to those pods in which an operator gives them,
+// or to none.
+export function ordersCanBeSealed(fleet) {
+  const keyOf = (component) => fleet.environmentOf(fleet.workload(component).pod.containers[0]).GIVEWAY_ADMIN_KEY;
+  const key = keyOf('vehicle');
+  if (fleet.overlay === 'sealed' && !key) return ['the vehicles have no key'];
+  return ['world', 'discovery-server'].filter((one) => keyOf(one) !== key)
+    .map((one) => `the key of ${one} is ${keyOf(one) ?? 'none'}, that of the vehicles ${key ?? 'none'}`);
+}
+
 // $(NAME) in a command is replaced by Kubernetes where there is such a variable, and else stays.
 export function argumentsAreFilled(fleet) {
   return fleet.containers.flatMap(({ workload, container }) => {

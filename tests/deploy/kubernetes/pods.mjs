@@ -78,7 +78,7 @@ export function imagesArePinned(fleet) {
 export function fleetIsPut(fleet) {
   const { document, replicas } = fleet.workload('vehicle');
   const world = fleet.workload('world').document.spec;
-  const size = fleet.overlay === 'observed' ? 2 : Number(fleet.overlay);
+  const size = ['observed', 'sealed'].includes(fleet.overlay) ? 2 : Number(fleet.overlay);
   const wanted = [
     [replicas === size, `${replicas} vehicles, and the overlay is ${fleet.overlay}`],
     [document.spec.podManagementPolicy === 'Parallel', 'vehicles start one after the other, and wait for each other'],

@@ -97,7 +97,7 @@ export function filesAreMounted(fleet) {
       const map = volume?.configMap && fleet.named('ConfigMap', volume.configMap.name);
       if (!volume) complaints.push(`${workload.name}: ${name}: nothing is mounted at ${folder}`);
       else if (map && !(file in (map.data ?? {}))) complaints.push(`${workload.name}: ${name}: ${file} is not in ${map.metadata.name}`);
-      else if (!map && mount.readOnly) complaints.push(`${workload.name}: ${name}: ${folder} cannot be written`);
+      else if (!map && !volume.secret && mount.readOnly) complaints.push(`${workload.name}: ${name}: ${folder} cannot be written`);
     }
     return complaints;
   });

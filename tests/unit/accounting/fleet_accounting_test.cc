@@ -91,12 +91,36 @@ TEST(FleetAccounting, TellsWhoAcceptsBeaconsAndReportsNoAccount) {
   EXPECT_TRUE(accounting.WithoutAccount().empty());
 }
 
-TEST(FleetAccounting, KeepsABoundedNumberOfPairs) {
-  FleetAccounting accounting;
-  for (std::uint32_t i = 1; i <= FleetAccounting::kMostPairs + 2; ++i) {
-    accounting.Fold(Status({Account(1, 1, 2)}, VehicleId{i}));
+// One account of each of so many readers, from number `first` on.
+void FoldReaders(std::uint32_t first, std::size_t readers, std::uint32_t missing,
+                 FleetAccounting* accounting) {
+  BeaconAccount account = Account(1, 1, 5);
+  account.accepted -= missing;
+  for (std::uint32_t i = first; i < first + readers; ++i) {
+    accounting->Fold(Status({account}, VehicleId{i}));
   }
-  EXPECT_EQ(accounting.Pairs().size(), FleetAccounting::kMostPairs);
+}
+
+TEST(FleetAccounting, KeepsABoundedNumberOfPairs) {
+  constexpr std::size_t kMost = FleetAccounting::kMostPairs;
+  FleetAccounting accounting;
+  FoldReaders(1, kMost + 2, 0, &accounting);
+  EXPECT_EQ(accounting.Pairs().size(), kMost);
+  FoldReaders(2 * kMost, kMost + 2, 1, &accounting);
+  EXPECT_EQ(accounting.Pairs().size(), 2 * kMost);
+}
+
+// From 72 vehicles on there are more pairs than are kept: beacons of the others could be missing.
+TEST(FleetAccounting, ADifferenceOfAPairBeyondTheKeptOnesIsKept) {
+  constexpr std::uint32_t kMost = FleetAccounting::kMostPairs;
+  FleetAccounting accounting;
+  FoldReaders(1, kMost, 0, &accounting);
+  FoldReaders(kMost + 1, 1, 0, &accounting);
+  FoldReaders(kMost + 2, 1, 3, &accounting);
+  const auto pairs = accounting.Pairs();
+  ASSERT_EQ(pairs.size(), kMost + 1);
+  EXPECT_EQ(pairs.back().reader, VehicleId{kMost + 2});
+  EXPECT_EQ(pairs.back().differing, 3U);
 }
 
 }  // namespace

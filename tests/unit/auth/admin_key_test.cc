@@ -41,11 +41,23 @@ TEST_F(AdminKey, IsTheFileWithoutWhiteSpaceAtItsEnd) {
 
 TEST_F(AdminKey, TooShortTooLongOrMissingIsRefusedByName) {
   EXPECT_THAT(WhyNot(With("0123456789abcde\n")), HasSubstr("has 15 bytes, must have 16 to 4096"));
-  EXPECT_THAT(WhyNot(With(std::string(5000, 'x'))), HasSubstr("must have 16 to 4096"));
-  EXPECT_EQ(WhyNot(With(std::string(4096, 'x'))), "");
+  EXPECT_THAT(WhyNot(With(std::string(5000, 'x'))),
+              HasSubstr("has 5000 bytes, must have 16 to 4096"));
+  EXPECT_THAT(WhyNot(With(std::string(10'000, 'x'))),
+              HasSubstr("has 8192 or more bytes, must have 16 to 4096"));
   EXPECT_THAT(WhyNot(folder_ / "absent"),
               AllOf(HasSubstr("absent: cannot be read: No such file"), HasSubstr("openssl rand")));
   EXPECT_THAT(WhyNot(folder_), HasSubstr("is no regular file"));
+}
+
+// Regression: it was counted with its newline, and refused as one of 4096 bytes.
+TEST_F(AdminKey, TheLongestMayEndInANewline) {
+  const std::string longest(4096, 'x');
+  EXPECT_EQ(ReadAdminKey(With(longest)), longest);
+  EXPECT_EQ(ReadAdminKey(With(longest + "\n")), longest);
+  EXPECT_THAT(WhyNot(With(longest + "x\n")), HasSubstr("has 4097 bytes, must have 16 to 4096"));
+  // What follows the white space would make it another key.
+  EXPECT_THAT(WhyNot(With(longest + std::string(4096, '\n') + "x")), HasSubstr("8192 or more"));
 }
 
 TEST_F(AdminKey, OneThatIsMadeIsOfThisUserAloneAndNeverTheSame) {

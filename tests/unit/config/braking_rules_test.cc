@@ -82,7 +82,26 @@ TEST(BrakingRules, SpawnPlacesCountAsTheirVehiclesDo) {
       "spawn { start { x_m: 0 y_m: 5 heading_deg: 0 } cruise_m_s: 2 }\n"
       "spawn { start { x_m: 5 y_m: 5 heading_deg: 0 } cruise_m_s: 2 }\n";
   EXPECT_THAT(ProblemsOf(HeadOn(0.3, 0.3) + two),
-              ElementsAre(Is(8, "spawn[0].cruise_m_s", "spawn[1] at 2.04 m/s")));
+              ElementsAre(Is(8, "spawn[0].cruise_m_s", "spawn[1] at 2.04 m/s"),
+                          Is(9, "spawn[1].cruise_m_s", "another of spawn[1] at 2.04 m/s")));
+}
+
+// Regression: one place was accepted from which two come that cannot stop for each other, while
+// the same place written twice was refused.
+TEST(BrakingRules, TwoOfOneSpawnPlaceMustBeAbleToStopForEachOther) {
+  const auto with_place = [](const std::string& more) {
+    return ProblemsOf(HeadOn(0.3, 0.3) +
+                      "start_with: 1\n"
+                      "spawn { start { x_m: 0 y_m: 5 heading_deg: 0 } cruise_m_s: 1 " +
+                      more + " }\n");
+  };
+  EXPECT_THAT(with_place("profile { deceleration_m_s2: 0.15 }"),
+              ElementsAre(Is(8, "spawn[0].cruise_m_s", "another of spawn[0] at 1.02 m/s")));
+  EXPECT_THAT(with_place(""), IsEmpty());
+  // A vehicle that patrols is the only one of its place.
+  EXPECT_THAT(with_place("profile { deceleration_m_s2: 0.15 } waypoint { x_m: 5 y_m: 5 } "
+                         "waypoint { x_m: 5 y_m: 9 } loop: true"),
+              IsEmpty());
 }
 
 TEST(BrakingRules, AWallMustBeWithinTheReachOfTheUltrasonics) {

@@ -106,6 +106,23 @@ TEST(Flags, EveryFlagReachesItsPlace) {
   EXPECT_EQ(flags.log_level, "debug");
 }
 
+// Regression: a switch with any value was on.
+TEST(Flags, ASwitchWithAValueIsJudgedAsItsVariable) {
+  const auto admin = [](std::vector<const char*> words) {
+    words.insert(words.begin(), {"--scenario=s", "--domain", "7"});
+    return std::get<ServiceFlags>(World(std::move(words))).admin;
+  };
+  EXPECT_FALSE(admin({}));
+  for (const char* const on : {"--admin", "--admin=1", "--admin=true"}) EXPECT_TRUE(admin({on}));
+  for (const char* const off : {"--admin=0", "--admin=false"}) EXPECT_FALSE(admin({off}));
+  EXPECT_FALSE(admin({"--admin", "--admin=false"}));
+  EXPECT_THAT(Refusal({"--scenario=s", "--domain", "7", "--admin=banana"}),
+              HasSubstr("--admin = banana: must be one of 0, 1, false, true"));
+  const Variable twin("GIVEWAY_ADMIN", "1");
+  EXPECT_TRUE(admin({}));
+  EXPECT_FALSE(admin({"--admin=false"}));
+}
+
 TEST(Flags, OnlyTheWorldKeepsACheckpointAndOnlyIfAsked) {
   const std::vector<const char*> least{"--scenario", "s", "--domain", "1"};
   EXPECT_EQ(std::get<ServiceFlags>(World(least)).checkpoint, "");

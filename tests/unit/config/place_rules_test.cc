@@ -38,7 +38,9 @@ TEST(PlaceRules, AbsurdSonarsAreRefusedAllAtOnce) {
 TEST(PlaceRules, ARefreshOfMoreThanAHundredTicksIsRefused) {
   EXPECT_THAT(With("tick_period_ms: 5 sonar { tier: p3dx slot_ms: 70 }"),
               ElementsAre(Is(17, "sonar.slot_ms", "every 112 ticks")));
-  EXPECT_THAT(With("tick_period_ms: 5 sonar { tier: p3dx slot_ms: 60 }"), IsEmpty());
+  EXPECT_THAT(With("tick_period_ms: 5 sonar { tier: p3dx slot_ms: 63 }"),
+              ElementsAre(Is(17, "sonar.slot_ms", "every 101 ticks")));  // 100.8
+  EXPECT_THAT(With("tick_period_ms: 5 sonar { tier: p3dx slot_ms: 62.5 }"), IsEmpty());
 }
 
 TEST(PlaceRules, ANumberWithoutEffectInItsTierIsRefused) {
@@ -189,12 +191,12 @@ TEST(PlaceRules, AnOpenFleetStartsWithAtMostAllOfIt) {
 
 TEST(PlaceRules, WhoJoinsWithoutAGoalCannotBeExpectedToArrive) {
   const std::string spawn = "spawn { start { x_m: 7 y_m: 0 heading_deg: 0 } cruise_m_s: 0.3 } ";
-  EXPECT_THAT(ProblemsOf(Spoilt("arrived: [1]", "arrived: [1, 3]") + spawn),
+  EXPECT_THAT(ProblemsOf(Edited("arrived: [1]", "arrived: [1, 3]") + spawn),
               ElementsAre(Is(16, "expect.arrived", "vehicle 3 has no goal")));
 }
 
 TEST(PlaceRules, ASetIsNotNamedAndLeftOpenAtOnce) {
-  EXPECT_THAT(ProblemsOf(Spoilt("arrived: [1]", "arrived: [1] any_arrived: true")),
+  EXPECT_THAT(ProblemsOf(Edited("arrived: [1]", "arrived: [1] any_arrived: true")),
               ElementsAre(Is(16, "expect.any_arrived", "together with arrived")));
 }
 
@@ -295,6 +297,21 @@ TEST(PlaceRules, AFullFleetAmongManyWallsIsCheckedAtOnce) {
     text += "wall{from{x_m:" + x + " y_m:" + y + "}to{x_m:" + x + ".5 y_m:" + y + "}}\n";
   }
   EXPECT_EQ(Load(text).vehicles.size(), 16384U);
+}
+
+TEST(PlaceRules, AnOpenFleetLargerThanAnyCanBeIsRefused) {
+  const auto place = [](int i) {
+    return " cruise_m_s:.3 start{x_m:" + std::to_string(2 * (i % 128)) +
+           " y_m:" + std::to_string(2 * (i / 128)) + " heading_deg:0}}\n";
+  };
+  std::string text = "name: \"open\" expect {}\n";
+  for (int i = 0; i < 1024; ++i) text += "vehicle{id:" + std::to_string(i + 1) + place(i);
+  EXPECT_THAT(ProblemsOf(text + "spawn{" + place(5000) + "start_with: 1025"),
+              ElementsAre(Is(1027, "start_with", "between 1 and 1024")));
+  text += "vehicle{id:9999" + place(4000);
+  EXPECT_THAT(ProblemsOf(text), IsEmpty());
+  EXPECT_THAT(ProblemsOf(text + "spawn{" + place(5000)),
+              ElementsAre(Is(1026, "vehicle[1024]", "at most 1024 at any one time")));
 }
 
 TEST(PlaceRules, AFullFleetOnOneSpotIsRefusedAtOnce) {

@@ -57,7 +57,7 @@ TEST(Place, ARefreshIsARoundOfSlotsInWholeTicksAndOneSlotMore) {
 
 TEST(Place, ABoxForABodyBringsTheDiscThatHoldsIt) {
   const RobotModel profile =
-      Load(Spoilt("id: 1", "id: 1 profile { box { half_length_m: 0.4 half_width_m: 0.3 } }"))
+      Load(Edited("id: 1", "id: 1 profile { box { half_length_m: 0.4 half_width_m: 0.3 } }"))
           .vehicles[0]
           .profile;
   EXPECT_EQ(profile.shape, BodyShape::kBox);
@@ -66,7 +66,7 @@ TEST(Place, ABoxForABodyBringsTheDiscThatHoldsIt) {
 }
 
 TEST(Place, TheProfileOfAVehicleMayMakeADiscOfTheScenariosBox) {
-  const std::string text = Spoilt("id: 1", "id: 1 profile { body_radius_m: 0.3 }") +
+  const std::string text = Edited("id: 1", "id: 1 profile { body_radius_m: 0.3 }") +
                            "profile { box { half_length_m: 0.4 half_width_m: 0.3 } }";
   const Scenario scenario = Load(text);
   EXPECT_EQ(scenario.vehicles[0].profile.shape, BodyShape::kDisc);
@@ -76,7 +76,7 @@ TEST(Place, TheProfileOfAVehicleMayMakeADiscOfTheScenariosBox) {
 }
 
 TEST(Place, SlipNoiseAndSensorsReachTheProfile) {
-  const std::string text = Spoilt("id: 1",
+  const std::string text = Edited("id: 1",
                                   "id: 1 profile { wheel_slip: 0.02 encoder_noise: 0.01 "
                                   "sensors { lidar: true camera: true } }") +
                            "profile { sensors { radar: true lidar: false } }";
@@ -208,7 +208,7 @@ TEST(Place, AClosedFleetStartsWithNobodyInParticular) {
 // Vehicles have ids 1 and 2, so the first to join gets 3.
 TEST(Place, AnExpectationMayNameTheIdsTheWorldGives) {
   const auto text = [](const char* ids) {
-    return Spoilt("arrived: [1]", std::string("arrived: [") + ids + "]") + kSpawn;
+    return Edited("arrived: [1]", std::string("arrived: [") + ids + "]") + kSpawn;
   };
   EXPECT_THAT(Load(text("1, 3")).expect.arrived, ElementsAre(VehicleId{1}, VehicleId{3}));
   EXPECT_EQ(ProblemsOf(text("1, 4")).size(), 1U);
@@ -216,7 +216,7 @@ TEST(Place, AnExpectationMayNameTheIdsTheWorldGives) {
 
 TEST(Place, WhoHaltsOrArrivesMayBeLeftOpen) {
   const Expectation expect =
-      Load(Spoilt("arrived: [1]", "any_arrived: true any_halted: true")).expect;
+      Load(Edited("arrived: [1]", "any_arrived: true any_halted: true")).expect;
   EXPECT_TRUE(expect.any_arrived);
   EXPECT_TRUE(expect.any_halted);
   EXPECT_FALSE(Load(kGoodScenario).expect.any_arrived);

@@ -68,5 +68,36 @@ TEST(PoseRules, FixesTooRoughToFindALostOneByAreRefused) {
                   .empty());
 }
 
+// kGoodScenario with a profile for both vehicles, and one of its own for vehicle 2.
+constexpr int kOwnLine = 12;
+std::string Merged(const std::string& shared, const std::string& own) {
+  return Edited("  cruise_m_s: 0.3\n}", "  cruise_m_s: 0.3 " + own + "\n}") + shared;
+}
+
+// Regression: the limit was held against the fixes of its own section alone.
+TEST(PoseRules, FixesAndLimitOfTwoSectionsAreHeldAgainstEachOther) {
+  const std::string rough = "profile { sensors { pose_fix { every_s: 1 sigma_m: 0.15 } } }";
+  EXPECT_THAT(ProblemsOf(Merged(rough, "profile { pose_limit_m: 0.05 }")),
+              ElementsAre(Is(kOwnLine, "vehicle[1].profile.pose_limit_m", "less than twice")));
+  EXPECT_THAT(
+      ProblemsOf(Merged("profile { pose_limit_m: 0.05 }", rough)),
+      ElementsAre(Is(kOwnLine, "vehicle[1].profile.sensors.pose_fix.sigma_m", "more than half")));
+  EXPECT_TRUE(ProblemsOf(Merged(rough, "profile { pose_limit_m: 0.3 }")).empty());
+  EXPECT_TRUE(ProblemsOf(Merged(rough, "profile { pose_limit_m: 0 }")).empty());
+}
+
+// Regression: "never" became the usual limit again where a vehicle had wheel errors of its own.
+TEST(PoseRules, ALimitOfTheScenarioHoldsForVehiclesThatWriteNone) {
+  const auto limit_m = [](const std::string& shared, const std::string& own) {
+    return Load(Merged(shared, own)).vehicles[1].profile.pose_limit_m;
+  };
+  const std::string errors = "profile { wheel_error { axle: 0.01 } }";
+  EXPECT_EQ(limit_m("profile { pose_limit_m: 0 }", errors), 0);
+  EXPECT_EQ(limit_m("profile { pose_limit_m: 0.4 }", errors), 0.4);
+  EXPECT_EQ(limit_m("", errors), kUsualPoseLimit_m);
+  EXPECT_EQ(limit_m(errors, ""), kUsualPoseLimit_m);
+  EXPECT_EQ(limit_m(errors, "profile { pose_limit_m: 0 }"), 0);
+}
+
 }  // namespace
 }  // namespace giveway

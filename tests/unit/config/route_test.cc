@@ -11,7 +11,7 @@ namespace {
 using ::testing::ElementsAre;
 
 std::string WithRoute(const std::string& route) {
-  return Spoilt("cruise_m_s: 0.4", "cruise_m_s: 0.4 " + route);
+  return Edited("cruise_m_s: 0.4", "cruise_m_s: 0.4 " + route);
 }
 
 TEST(RouteInAFile, IsReadInTurn) {

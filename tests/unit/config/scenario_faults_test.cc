@@ -54,7 +54,7 @@ TEST(ScenarioFaults, AreAbsentUnlessTheFileSaysSo) {
 }
 
 TEST(ScenarioFaults, AreRefusedAsInAFaultFileAndWithEverythingElse) {
-  const std::string text = Spoilt("cruise_m_s: 0.4", "cruise_m_s: 40") + R"(faults {
+  const std::string text = Edited("cruise_m_s: 0.4", "cruise_m_s: 40") + R"(faults {
   at { name: "a" time_s: 1 kind: "restrat" vehicle: 1 for_s: 1 }
   random { name: "b" kind: "kill" mean_between_s: 90 for_s: 4 }
   at { name: "c" time_s: 1 kind: "kill" vehicle: 0 }
@@ -70,7 +70,7 @@ TEST(ScenarioFaults, AreRefusedAsInAFaultFileAndWithEverythingElse) {
 
 TEST(ScenarioFaults, OfAVehicleThatIsNotThereAreRefusedWhenTheScenarioIsRead) {
   const std::string absent =
-      Spoilt("cruise_m_s: 0.4", "cruise_m_s: 40") +
+      Edited("cruise_m_s: 0.4", "cruise_m_s: 40") +
       "faults {\n"
       "at { name: \"a\" time_s: 9 kind: \"kill\" vehicle: 7 }\n"
       "random { name: \"b\" kind: \"kill\" mean_between_s: 9 vehicle: 8 } }\n"

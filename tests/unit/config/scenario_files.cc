@@ -42,7 +42,7 @@ fault { kill: 2 at_s: 4 }
 expect { arrived: [1] }
 )";
 
-std::string Spoilt(std::string_view from, std::string_view to) {
+std::string Edited(std::string_view from, std::string_view to) {
   std::string text = kGoodScenario;
   const std::size_t at = text.find(from);
   GIVEWAY_CHECK(at != std::string::npos && text.find(from, at + 1) == std::string::npos, from);

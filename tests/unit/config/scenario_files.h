@@ -30,7 +30,7 @@ class TempFolder {
 extern const std::string kGoodScenario;
 
 // kGoodScenario with `from`, which occurs once, replaced.
-std::string Spoilt(std::string_view from, std::string_view to);
+std::string Edited(std::string_view from, std::string_view to);
 Scenario Load(const std::string& text, const ScenarioOverrides& overrides = {});
 // Problems of a scenario text; empty if it loads.
 std::vector<Problem> ProblemsOf(const std::string& text, const ScenarioOverrides& overrides = {});

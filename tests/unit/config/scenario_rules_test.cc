@@ -18,45 +18,45 @@ using ::testing::IsEmpty;
 TEST(ScenarioRules, TheGoodTextHasNoProblem) { EXPECT_THAT(ProblemsOf(kGoodScenario), IsEmpty()); }
 
 TEST(ScenarioRules, AnUnknownFieldIsRefusedWithTheFieldsThereAre) {
-  const auto problems = ProblemsOf(Spoilt("cruise_m_s: 0.4", "cruise_m_s: 0.4 cruse: 3"));
+  const auto problems = ProblemsOf(Edited("cruise_m_s: 0.4", "cruise_m_s: 0.4 cruse: 3"));
   ASSERT_THAT(problems, ElementsAre(Is(6, "cruse", "is no field of Vehicle")));
   EXPECT_THAT(problems[0].remedy, HasSubstr("cruise_m_s"));
 }
 
 TEST(ScenarioRules, AnUnknownMessageIsRefusedOnce) {
-  EXPECT_THAT(ProblemsOf(Spoilt("wall {", "waal { a: 1 } wall {")),
+  EXPECT_THAT(ProblemsOf(Edited("wall {", "waal { a: 1 } wall {")),
               ElementsAre(Is(14, "waal", "is no field of Scenario")));
 }
 
 TEST(ScenarioRules, AnErrorOfSyntaxIsToldWithTheUnknownFieldsBeforeIt) {
-  EXPECT_THAT(ProblemsOf(Spoilt("wall { from", "abc: 1 wall { from from")),
+  EXPECT_THAT(ProblemsOf(Edited("wall { from", "abc: 1 wall { from from")),
               ElementsAre(Is(14, "abc", "is no field"), Is(14, "", "column")));
 }
 
 // The parser names a misplaced character by its first byte alone.
 TEST(ScenarioRules, WhatTheParserSaysIsTextWhateverItFound) {
-  const auto problems = ProblemsOf(Spoilt("cruise_m_s: 0.4", "\xc3\xa9 cruise_m_s: 0.4"));
+  const auto problems = ProblemsOf(Edited("cruise_m_s: 0.4", "\xc3\xa9 cruise_m_s: 0.4"));
   ASSERT_FALSE(problems.empty());
   EXPECT_TRUE(IsText(Format(problems))) << Format(problems);
 }
 
 TEST(ScenarioRules, AFieldWrittenTwiceIsRefused) {
-  EXPECT_THAT(ProblemsOf(Spoilt("cruise_m_s: 0.4", "cruise_m_s: 0.4 cruise_m_s: 0.5")),
+  EXPECT_THAT(ProblemsOf(Edited("cruise_m_s: 0.4", "cruise_m_s: 0.4 cruise_m_s: 0.5")),
               ElementsAre(Is(6, "", "specified multiple times")));
 }
 
 TEST(ScenarioRules, NumbersThatAreNotFiniteAreRefusedAsTheyWereWritten) {
   for (const char* value : {"nan", "inf", "-inf", "1e400", "-1e400"}) {
-    const auto problems = ProblemsOf(Spoilt("0.4", value));
+    const auto problems = ProblemsOf(Edited("0.4", value));
     ASSERT_THAT(problems, ElementsAre(Is(6, "vehicle[0].cruise_m_s", "not a finite number")));
     EXPECT_EQ(problems[0].value, value);
   }
 }
 
 TEST(ScenarioRules, TheNameIsRequiredAndClean) {
-  EXPECT_THAT(ProblemsOf(Spoilt("name: \"two\"", "")), ElementsAre(Is(1, "name", "missing")));
+  EXPECT_THAT(ProblemsOf(Edited("name: \"two\"", "")), ElementsAre(Is(1, "name", "missing")));
   for (const char* name : {"\"\"", "\"Two\"", "\"a/b\"", "\"a\\nb\"", "\"\\377\""}) {
-    EXPECT_THAT(ProblemsOf(Spoilt("\"two\"", name)), ElementsAre(Is(1, "name", "a-z 0-9")));
+    EXPECT_THAT(ProblemsOf(Edited("\"two\"", name)), ElementsAre(Is(1, "name", "a-z 0-9")));
   }
 }
 
@@ -77,7 +77,7 @@ TEST(ScenarioRules, AVehicleNeedsIdStartAndCruise) {
 }
 
 TEST(ScenarioRules, AStartNeedsAllItsNumbers) {
-  EXPECT_THAT(ProblemsOf(Spoilt("x_m: 0 y_m: -3 heading_deg: 90", "")),
+  EXPECT_THAT(ProblemsOf(Edited("x_m: 0 y_m: -3 heading_deg: 90", "")),
               ElementsAre(Is(11, "vehicle[1].start.x_m", "missing"),
                           Is(11, "vehicle[1].start.y_m", "missing"),
                           Is(11, "vehicle[1].start.heading_deg", "missing")));
@@ -89,67 +89,90 @@ TEST(ScenarioRules, AScenarioNeedsVehiclesAndAnExpectation) {
 }
 
 TEST(ScenarioRules, ANonsenseHeadingIsRefused) {
-  EXPECT_THAT(ProblemsOf(Spoilt("heading_deg: 90", "heading_deg: 361")),
+  EXPECT_THAT(ProblemsOf(Edited("heading_deg: 90", "heading_deg: 361")),
               ElementsAre(Is(11, "vehicle[1].start.heading_deg", "between -360 and 360 degrees")));
-  EXPECT_THAT(ProblemsOf(Spoilt("heading_deg: 90", "heading_deg: nan")),
+  EXPECT_THAT(ProblemsOf(Edited("heading_deg: 90", "heading_deg: nan")),
               ElementsAre(Is(11, "vehicle[1].start.heading_deg", "finite")));
 }
 
 TEST(ScenarioRules, IdZeroIsRefused) {
-  EXPECT_THAT(ProblemsOf(Spoilt("id: 1", "id: 0") + "fault { kill: 0 at_s: 1 }"),
+  EXPECT_THAT(ProblemsOf(Edited("id: 1", "id: 0") + "fault { kill: 0 at_s: 1 }"),
               ElementsAre(Is(4, "vehicle[0].id", "between 1 and"),
                           Is(16, "expect.arrived[0]", "no vehicle"),
                           Is(17, "fault[1].kill", "between 1 and")));
 }
 
 TEST(ScenarioRules, IdsAreUnique) {
-  EXPECT_THAT(ProblemsOf(Spoilt("id: 1", "id: 2") + "#"),
+  EXPECT_THAT(ProblemsOf(Edited("id: 1", "id: 2") + "#"),
               ElementsAre(Is(10, "vehicle[1].id", "another vehicle"),
                           Is(16, "expect.arrived[0]", "no vehicle")));
 }
 
 TEST(ScenarioRules, ANegativeIdIsAnErrorOfSyntax) {
-  EXPECT_THAT(ProblemsOf(Spoilt("id: 1", "id: -1")), ElementsAre(Is(4, "", "column")));
+  EXPECT_THAT(ProblemsOf(Edited("id: 1", "id: -1")), ElementsAre(Is(4, "", "column")));
 }
 
 TEST(ScenarioRules, StartDiscsMustNotOverlap) {
-  const auto problems = ProblemsOf(Spoilt("x_m: 0 y_m: -3", "x_m: -4 y_m: 0.49"));
+  const auto problems = ProblemsOf(Edited("x_m: 0 y_m: -3", "x_m: -4 y_m: 0.49"));
   ASSERT_THAT(problems, ElementsAre(Is(11, "vehicle[1].start", "vehicle 2 overlaps vehicle 1")));
-  EXPECT_THAT(ProblemsOf(Spoilt("x_m: 0 y_m: -3", "x_m: -4 y_m: 0.51")), IsEmpty());
+  EXPECT_THAT(ProblemsOf(Edited("x_m: 0 y_m: -3", "x_m: -4 y_m: 0.51")), IsEmpty());
 }
 
 TEST(ScenarioRules, AStartDiscMustNotTouchAWall) {
-  EXPECT_THAT(ProblemsOf(Spoilt("x_m: 0 y_m: -3", "x_m: 0 y_m: 2.8")),
+  EXPECT_THAT(ProblemsOf(Edited("x_m: 0 y_m: -3", "x_m: 0 y_m: 2.8")),
               ElementsAre(Is(11, "vehicle[1].start", "overlaps wall[0]")));
-  EXPECT_THAT(ProblemsOf(Spoilt("x_m: 0 y_m: -3", "x_m: 5.2 y_m: 3")),
+  EXPECT_THAT(ProblemsOf(Edited("x_m: 0 y_m: -3", "x_m: 5.2 y_m: 3")),
               ElementsAre(Is(11, "vehicle[1].start", "overlaps wall[0]")));
-  EXPECT_THAT(ProblemsOf(Spoilt("x_m: 0 y_m: -3", "x_m: 5.3 y_m: 3")), IsEmpty());
+  EXPECT_THAT(ProblemsOf(Edited("x_m: 0 y_m: -3", "x_m: 5.3 y_m: 3")), IsEmpty());
+}
+
+// Its corners reach 0.84 m, and no sensor hears what they come to.
+TEST(ScenarioRules, ABoxHasRoomToTurnWhereItStarts) {
+  const auto start = [](const std::string& heading_deg, const std::string& place) {
+    return ProblemsOf(Edited("heading_deg: 0 }\n  cruise_m_s: 0.4",
+                             "heading_deg: " + heading_deg +
+                                 " }\n  cruise_m_s: 0.4 "
+                                 "profile { box { half_length_m: 0.8 half_width_m: 0.25 } }") +
+                      place);
+  };
+  const std::string wall = "wall { from { x_m: -9 y_m: 0.5 } to { x_m: -3 y_m: 0.5 } }";
+  const auto problems = start("180", wall);
+  ASSERT_THAT(problems, ElementsAre(Is(5, "vehicle[0].start", "0.838 m from its centre")));
+  EXPECT_THAT(problems[0].message, HasSubstr("reach wall[1]"));
+  EXPECT_THAT(problems[0].remedy, HasSubstr("start it 0.839 m away"));
+  EXPECT_THAT(start("180", "obstacle { disc_radius_m: 0.2 start { x_m: -4 y_m: -0.7 } }"),
+              ElementsAre(Is(5, "vehicle[0].start", "reach obstacle[0]")));
+  EXPECT_THAT(start("15", wall), IsEmpty()) << "its goal is nearly straight ahead";
+  EXPECT_THAT(start("180", "wall { from { x_m: -9 y_m: 0.84 } to { x_m: -3 y_m: 0.84 } }"),
+              IsEmpty());
+  EXPECT_THAT(start("180", wall + "behaviour: lecture_avoid"), IsEmpty())
+      << "it drives by what it hears alone";
 }
 
 TEST(ScenarioRules, AStartMustNotLieInsideItsGoal) {
-  EXPECT_THAT(ProblemsOf(Spoilt("goal { x_m: 2 y_m: 0", "goal { x_m: -4 y_m: 0.05")),
+  EXPECT_THAT(ProblemsOf(Edited("goal { x_m: 2 y_m: 0", "goal { x_m: -4 y_m: 0.05")),
               ElementsAre(Is(5, "vehicle[0].start", "inside the vehicle's own goal")));
 }
 
 TEST(ScenarioRules, AGoalNeedsAPointAndAPositiveRadius) {
-  EXPECT_THAT(ProblemsOf(Spoilt("goal { x_m: 2 y_m: 0", "goal { x_m: 2")),
+  EXPECT_THAT(ProblemsOf(Edited("goal { x_m: 2 y_m: 0", "goal { x_m: 2")),
               ElementsAre(Is(7, "vehicle[0].goal.y_m", "missing")));
-  EXPECT_THAT(ProblemsOf(Spoilt("2 y_m: 0 }", "2 y_m: 0 radius_m: -0.1 }")),
+  EXPECT_THAT(ProblemsOf(Edited("2 y_m: 0 }", "2 y_m: 0 radius_m: -0.1 }")),
               ElementsAre(Is(7, "vehicle[0].goal.radius_m", "above 0")));
 }
 
 TEST(ScenarioRules, AGoalThatOneTickJumpsOverIsRefused) {
-  EXPECT_THAT(ProblemsOf(Spoilt("2 y_m: 0 }", "2 y_m: 0 radius_m: 0.019 }")),
+  EXPECT_THAT(ProblemsOf(Edited("2 y_m: 0 }", "2 y_m: 0 radius_m: 0.019 }")),
               ElementsAre(Is(7, "vehicle[0].goal.radius_m", "jump over its goal")));
-  EXPECT_THAT(ProblemsOf(Spoilt("2 y_m: 0 }", "2 y_m: 0 radius_m: 0.021 }")), IsEmpty());
+  EXPECT_THAT(ProblemsOf(Edited("2 y_m: 0 }", "2 y_m: 0 radius_m: 0.021 }")), IsEmpty());
 }
 
 TEST(ScenarioRules, CruiseIsAboveZeroAndWithinTheProfile) {
   for (const char* cruise : {"0", "-0.4", "1.01"}) {
-    EXPECT_THAT(ProblemsOf(Spoilt("0.4", cruise)),
+    EXPECT_THAT(ProblemsOf(Edited("0.4", cruise)),
                 ElementsAre(Is(6, "vehicle[0].cruise_m_s", "above 0 and at most 1 m/s")));
   }
-  EXPECT_THAT(ProblemsOf(Spoilt("cruise_m_s: 0.4", "cruise_m_s: 0.4 profile{max_speed_m_s: 0.3}")),
+  EXPECT_THAT(ProblemsOf(Edited("cruise_m_s: 0.4", "cruise_m_s: 0.4 profile{max_speed_m_s: 0.3}")),
               ElementsAre(Is(6, "vehicle[0].cruise_m_s", "at most 0.3 m/s")));
 }
 
@@ -161,35 +184,35 @@ TEST(ScenarioRules, AWallNeedsTwoPointsThatDiffer) {
 }
 
 TEST(ScenarioRules, AFaultNeedsAKnownVehicleAndACondition) {
-  EXPECT_THAT(ProblemsOf(Spoilt("kill: 2", "kill: 7")),
+  EXPECT_THAT(ProblemsOf(Edited("kill: 2", "kill: 7")),
               ElementsAre(Is(15, "fault[0].kill", "no vehicle")));
-  EXPECT_THAT(ProblemsOf(Spoilt("kill: 2 at_s: 4", "kill: 2")),
+  EXPECT_THAT(ProblemsOf(Edited("kill: 2 at_s: 4", "kill: 2")),
               ElementsAre(Is(15, "fault[0]", "no condition")));
-  EXPECT_THAT(ProblemsOf(Spoilt("kill: 2 at_s: 4", "at_s: 4")),
+  EXPECT_THAT(ProblemsOf(Edited("kill: 2 at_s: 4", "at_s: 4")),
               ElementsAre(Is(15, "fault[0]", "names none of kill, dark and silent")));
-  EXPECT_THAT(ProblemsOf(Spoilt("at_s: 4", "at_s: -1")),
+  EXPECT_THAT(ProblemsOf(Edited("at_s: 4", "at_s: -1")),
               ElementsAre(Is(15, "fault[0].at_s", "between 0 and")));
 }
 
 TEST(ScenarioRules, AFaultBeforeTheCrossingNeedsACrossing) {
-  const std::string text = Spoilt("crossing { x_m: 0 y_m: 0 }", "");
+  const std::string text = Edited("crossing { x_m: 0 y_m: 0 }", "");
   EXPECT_THAT(ProblemsOf(text + "fault { kill: 1 before_crossing_m: 1 }"),
               ElementsAre(Is(17, "fault[1].before_crossing_m", "no crossing")));
 }
 
 TEST(ScenarioRules, AnExpectationNamesKnownVehiclesOnce) {
-  EXPECT_THAT(ProblemsOf(Spoilt("arrived: [1]", "arrived: [1, 9] halted: [2, 2]")),
+  EXPECT_THAT(ProblemsOf(Edited("arrived: [1]", "arrived: [1, 9] halted: [2, 2]")),
               ElementsAre(Is(16, "expect.halted[1]", "names 2 twice"),
                           Is(16, "expect.arrived[1]", "no vehicle has the id 9")));
 }
 
 TEST(ScenarioRules, AVehicleWithoutGoalCannotBeExpectedToArrive) {
-  EXPECT_THAT(ProblemsOf(Spoilt("arrived: [1]", "arrived: [1, 2]")),
+  EXPECT_THAT(ProblemsOf(Edited("arrived: [1]", "arrived: [1, 2]")),
               ElementsAre(Is(16, "expect.arrived", "vehicle 2 has no goal")));
 }
 
 TEST(ScenarioRules, BoundsOfAnExpectationAreNumbers) {
-  EXPECT_THAT(ProblemsOf(Spoilt("arrived: [1]", "min_separation_m: -1 time_to_clear_s: nan")),
+  EXPECT_THAT(ProblemsOf(Edited("arrived: [1]", "min_separation_m: -1 time_to_clear_s: nan")),
               ElementsAre(Is(16, "expect.min_separation_m", "between 0"),
                           Is(16, "expect.time_to_clear_s", "finite")));
 }
@@ -202,19 +225,19 @@ TEST(ScenarioRules, TheEntryGateIsBelowTheExitGate) {
 }
 
 TEST(ScenarioRules, TheNearGateIsBelowTheFarGate) {
-  EXPECT_THAT(ProblemsOf(Spoilt("id: 2", "id: 2 braitenberg { near_gate_m: 1 }")),
+  EXPECT_THAT(ProblemsOf(Edited("id: 2", "id: 2 braitenberg { near_gate_m: 1 }")),
               ElementsAre(Is(10, "vehicle[1].braitenberg.near_gate_m", "below the far gate")));
 }
 
 TEST(ScenarioRules, WeightsComeInEightsForBothWheels) {
-  EXPECT_THAT(ProblemsOf(Spoilt("id: 2", "id: 2 braitenberg { left: [1, 2] }")),
+  EXPECT_THAT(ProblemsOf(Edited("id: 2", "id: 2 braitenberg { left: [1, 2] }")),
               ElementsAre(Is(10, "vehicle[1].braitenberg.left", "has 2 values"),
                           Is(10, "vehicle[1].braitenberg.right", "has 0 values")));
 }
 
 TEST(ScenarioRules, EveryWeightIsFinite) {
   const char* text = "id: 2 braitenberg { left: [0,0,0,nan,0,0,0,0] right: [0,0,0,0,0,0,0,101] }";
-  EXPECT_THAT(ProblemsOf(Spoilt("id: 2", text)),
+  EXPECT_THAT(ProblemsOf(Edited("id: 2", text)),
               ElementsAre(Is(10, "vehicle[1].braitenberg.left[3]", "finite"),
                           Is(10, "vehicle[1].braitenberg.right[7]", "between -100 and 100")));
 }
@@ -229,13 +252,13 @@ TEST(ScenarioRules, ATickTheBeaconAgeLimitCannotGuardIsRefused) {
 
 // No vehicle gives way to a vehicle whose beacons its peers reject.
 TEST(ScenarioRules, AVehicleWhosePeersWouldNotBelieveItIsRefused) {
-  EXPECT_THAT(ProblemsOf(Spoilt("cruise_m_s: 0.4", "cruise_m_s: 2 profile{max_speed_m_s: 2.4}")),
+  EXPECT_THAT(ProblemsOf(Edited("cruise_m_s: 0.4", "cruise_m_s: 2 profile{max_speed_m_s: 2.4}")),
               IsEmpty());
-  EXPECT_THAT(ProblemsOf(Spoilt("cruise_m_s: 0.4", "cruise_m_s: 3 profile{max_speed_m_s: 4}")),
+  EXPECT_THAT(ProblemsOf(Edited("cruise_m_s: 0.4", "cruise_m_s: 3 profile{max_speed_m_s: 4}")),
               ElementsAre(Is(6, "vehicle[0].profile.max_speed_m_s", "at most 2.5"),
                           Is(6, "vehicle[0].cruise_m_s", "at most 2.5")));
   EXPECT_THAT(
-      ProblemsOf(Spoilt("cruise_m_s: 0.4", "cruise_m_s: 0.4 profile{wheel_radius_m: 0.03}")),
+      ProblemsOf(Edited("cruise_m_s: 0.4", "cruise_m_s: 0.4 profile{wheel_radius_m: 0.03}")),
       ElementsAre(Is(6, "vehicle[0].profile", "42.9 rad/s")));
 }
 
@@ -294,12 +317,12 @@ TEST(ScenarioRules, AtMost16384VehiclesAreRead) {
 TEST(ScenarioRules, AListOfIdsHasAnEnd) {
   std::string ids = "1";
   for (int i = 0; i < 16384; ++i) ids += ", 1";
-  EXPECT_THAT(ProblemsOf(Spoilt("arrived: [1]", "arrived: [" + ids + "]")),
+  EXPECT_THAT(ProblemsOf(Edited("arrived: [1]", "arrived: [" + ids + "]")),
               ElementsAre(Is(16, "expect.arrived", "16385 values; at most 16384")));
 }
 
 TEST(ScenarioRules, AllProblemsComeAtOnceInOrderOfLines) {
-  std::string text = Spoilt("cruise_m_s: 0.4", "cruise_m_s: 9 foo: 1");
+  std::string text = Edited("cruise_m_s: 0.4", "cruise_m_s: 9 foo: 1");
   text = "seed: 3 area: \"A\"\n" + text + "duration_s: nan\n";
   EXPECT_THAT(ProblemsOf(text), ElementsAre(Is(1, "area", "a-z"), Is(7, "foo", "no field"),
                                             Is(7, "vehicle[0].cruise_m_s", "above 0"),
@@ -322,7 +345,7 @@ TEST(ScenarioRules, ADurationAskedForInsteadIsCheckedToo) {
 }
 
 TEST(ScenarioRules, ASeedThatPushesBodiesIntoEachOtherIsRefusedByName) {
-  const std::string text = Spoilt("x_m: 0 y_m: -3", "x_m: -4 y_m: 0.501");
+  const std::string text = Edited("x_m: 0 y_m: -3", "x_m: -4 y_m: 0.501");
   int refused = 0;
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     ScenarioOverrides overrides;

@@ -118,6 +118,7 @@ TEST(Scenario, ADefaultIsTheOneTheTypesState) {
   EXPECT_EQ(vehicle.behaviour, Behaviour::kCooperative);
   EXPECT_EQ(vehicle.ranges_age_limit, VehicleOptions{}.ranges_age_limit);
   EXPECT_EQ(vehicle.gate_enter_m, VehicleOptions{}.gate_enter_m);
+  EXPECT_EQ(vehicle.silent_body_stays, VehicleOptions{}.silent_body_stays);
   EXPECT_EQ(vehicle.distance_metric, DistanceMetric::kEuclidean);
   EXPECT_EQ(scenario.expect.halted_for, std::nullopt);
   EXPECT_FALSE(vehicle.goal.set);
@@ -169,6 +170,7 @@ TEST(Scenario, EveryFieldReachesItsPlace) {
   EXPECT_EQ(v.tick_period, std::chrono::milliseconds{20});
   EXPECT_EQ(v.ranges_age_limit, std::chrono::milliseconds{60});
   EXPECT_EQ(v.beacon_age_limit, std::chrono::milliseconds{100});
+  EXPECT_EQ(v.silent_body_stays, std::chrono::seconds{1});  // removed as soon as it is silent
   EXPECT_EQ(v.emission_radius_m, 9);
   EXPECT_EQ(v.gate_enter_m, 1.5);
   EXPECT_EQ(v.gate_exit_m, 1.75);
@@ -191,7 +193,7 @@ TEST(Scenario, EveryFieldReachesItsPlace) {
 TEST(Scenario, VehiclesAndExpectedIdsComeSorted) {
   const std::string third =
       "vehicle { id: 1 start { x_m: 9 y_m: 0 heading_deg: 0 } cruise_m_s: 1 goal {x_m: 0 y_m: 0} }";
-  const Scenario scenario = Load(Spoilt("id: 1\n", "id: 3\n") + third + "# 1 was last");
+  const Scenario scenario = Load(Edited("id: 1\n", "id: 3\n") + third + "# 1 was last");
   EXPECT_EQ(scenario.vehicles[0].id, VehicleId{1});
   EXPECT_EQ(scenario.vehicles[0].start_world.position_world.x, 9);
   EXPECT_EQ(scenario.vehicles[2].id, VehicleId{3});
@@ -210,7 +212,7 @@ TEST(Scenario, TheNamesOfMetricsAreThoseOfTheSchema) {
   for (const DistanceMetric metric :
        {DistanceMetric::kEuclidean, DistanceMetric::kManhattan, DistanceMetric::kChebyshev}) {
     const std::string line = "id: 1 distance_metric: " + std::string(Name(metric));
-    EXPECT_EQ(Load(Spoilt("id: 1", line)).vehicles[0].distance_metric, metric);
+    EXPECT_EQ(Load(Edited("id: 1", line)).vehicles[0].distance_metric, metric);
   }
 }
 
@@ -218,7 +220,7 @@ TEST(Scenario, TheNamesOfReasonsAreThoseOfTheSchema) {
   for (const Rule rule :
        {Rule::kGiveWay, Rule::kNotGranted, Rule::kPeerLost, Rule::kUnidentifiedMotion}) {
     const std::string line = "any_halted: true halted_for: " + std::string(Name(rule)) + " }";
-    EXPECT_EQ(Load(Spoilt("arrived: [1] }", line)).expect.halted_for, rule);
+    EXPECT_EQ(Load(Edited("arrived: [1] }", line)).expect.halted_for, rule);
   }
 }
 
@@ -231,7 +233,7 @@ TEST(Scenario, TheWeightsAreThoseOfTheBehaviourUnlessWritten) {
   const std::string own =
       "id: 1 braitenberg { far_gate_m: 2 left: [1,1,1,1,1,1,1,1] "
       "right: [2,2,2,2,2,2,2,2,3,3,3,3,3,3,3,3] }";
-  const BraitenbergWeights read = Load(Spoilt("id: 1", own)).vehicles[0].braitenberg;
+  const BraitenbergWeights read = Load(Edited("id: 1", own)).vehicles[0].braitenberg;
   EXPECT_EQ(read.far_gate_m, 2);
   EXPECT_EQ(read.base_rad_s, LectureWeights().base_rad_s);
   EXPECT_EQ(read.left[7], 1);
@@ -240,7 +242,7 @@ TEST(Scenario, TheWeightsAreThoseOfTheBehaviourUnlessWritten) {
 }
 
 TEST(Scenario, TheCommandLineOverridesTheFile) {
-  const std::string text = Spoilt("id: 1", "id: 1 behaviour: lecture_yield") + "seed: 5";
+  const std::string text = Edited("id: 1", "id: 1 behaviour: lecture_yield") + "seed: 5";
   ScenarioOverrides overrides;
   overrides.behaviour = Behaviour::kStockAvoid;
   overrides.duration_s = 3;
@@ -272,6 +274,21 @@ TEST(Scenario, AFileComesBeforeTheShippedScenarioOfItsName) {
   EXPECT_THAT(ResolveScenario("wall_only"), HasSubstr("scenarios/wall_only.textproto"));
 }
 
+// Regression: a folder of that name where a program was started hid the shipped scenario.
+TEST(Scenario, AFolderDoesNotHideWhatIsShippedUnderItsName) {
+  const TempFolder folder;
+  for (const char* const name : {"wall_only", "nightly", "lossy_radio"}) {
+    fs::create_directory(folder.Path() + "/" + name);
+  }
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.Path());
+  EXPECT_THAT(ResolveScenario("wall_only"), HasSubstr("scenarios/wall_only.textproto"));
+  EXPECT_THAT(ResolveCampaign("nightly"), HasSubstr("campaigns/nightly.textproto"));
+  EXPECT_THAT(ResolveQosFile("lossy_radio"), HasSubstr("qos/lossy_radio.xml"));
+  fs::current_path(before);
+  EXPECT_THROW(ResolveScenario(folder.Path()), InputError);
+}
+
 TEST(Scenario, TheConfigFolderCanBeNamed) {
   const TempFolder folder;
   fs::create_directory(folder.Path() + "/scenarios");
@@ -284,6 +301,8 @@ TEST(Scenario, TheConfigFolderCanBeNamed) {
 
 TEST(Scenario, AProblemNeverCommandsTheTerminal) {
   EXPECT_EQ(Format({{"f", 1, "", "\x1b[2J\n", "is bad", "x"}}), "f:1: ?[2J?: is bad; x");
+  // Regression: U+009B, which is the same sequence, passed.
+  EXPECT_EQ(Format({{"f", 1, "", "\xc2\x9b\x32J", "is bad", "x"}}), "f:1: ?2J: is bad; x");
 }
 
 TEST(Scenario, AProblemIsToldOnOneLineWithItsPlace) {

@@ -18,9 +18,8 @@ constexpr VehicleId kOne{1};
 constexpr VehicleId kTwo{2};
 constexpr VehicleId kThree{3};
 
-std::vector<ImpairmentRule> RulesOf(const Schedule& schedule, VehicleId hearer,
-                                    double since_s = 0) {
-  const auto impairments = ImpairmentOf(schedule, Fleet(3), since_s);
+std::vector<ImpairmentRule> RulesOf(const Schedule& schedule, VehicleId hearer) {
+  const auto impairments = ImpairmentOf(schedule, Fleet(3));
   const auto found = impairments.find(hearer);
   return found == impairments.end() ? std::vector<ImpairmentRule>{} : found->second.rules;
 }
@@ -118,17 +117,6 @@ TEST(ChannelOfFaults, AFlappingOneIsCutOffForTheFirstHalfOfEachPeriod) {
   ASSERT_THAT(rules, SizeIs(1));
   EXPECT_THAT(rules[0].blackouts,
               ElementsAre(Blackout{10, 11}, Blackout{12, 13}, Blackout{14, 15}));
-}
-
-TEST(ChannelOfFaults, WhoIsStartedLaterCountsFromThen) {
-  const Schedule schedule = {Of(Kind::kLoss, Vehicle(1), 10, 5), Of(Kind::kLoss, Vehicle(1), 20, 5),
-                             Of(Kind::kPartition, Vehicle(1), 30, 5)};
-  const auto rules = RulesOf(schedule, kOne, 22);
-  ASSERT_THAT(rules, SizeIs(2));
-  EXPECT_EQ(rules[0].from_s, 0);
-  EXPECT_EQ(rules[0].to_s, 3);
-  EXPECT_EQ(rules[1], Deaf(8, 13));
-  EXPECT_THAT(RulesOf(schedule, kOne, 40), IsEmpty());
 }
 
 }  // namespace

@@ -64,7 +64,11 @@ TEST(Health, WhoHasNoPlaceSaysWhatTheWorldSaidLast) {
   VehicleHealth vehicle = Driving();
   vehicle.loop.stage = HealthStage::kStarting;
   EXPECT_THAT(NotReady(vehicle, kNow), ElementsAre(StartsWith("starting")));
+  vehicle.waits_for = ShortText("no address of the discovery server a");
+  EXPECT_THAT(NotReady(vehicle, kNow),
+              ElementsAre("starting: no address of the discovery server a"));
   vehicle.loop.stage = HealthStage::kJoining;
+  vehicle.waits_for = {};
   EXPECT_THAT(NotReady(vehicle, kNow), ElementsAre(HasSubstr("no answer from a world yet")));
   vehicle.waits_for = ShortText("the world lets it wait: id 2 is taken");
   EXPECT_THAT(NotReady(vehicle, kNow),

@@ -92,12 +92,19 @@ PacketDrop DropOf(std::uint16_t id, const PacketBytes& value, bool little = true
   return DropOfList(List(little).Parameter(id, value).End(), little, secured);
 }
 
+PacketBytes GuidOf(const test::PrefixBytes& prefix, std::uint8_t last_of_entity = 0xc1) {
+  PacketBytes guid(prefix.begin(), prefix.end());
+  guid.insert(guid.end(), {0, 0, 1, last_of_entity});
+  return guid;
+}
+
 constexpr auto kTooLong = PacketDrop::kListTooLong;
 constexpr auto kSound = PacketDrop::kNone;
 
 TEST(DiscoveryList, HandsOnWhatAnEndpointSaysOfItself) {
   for (const bool little : {true, false}) {
     List list(little);
+    list.Parameter(0x50, GuidOf(kAnnounced));  // of a participant
     for (const std::uint16_t id : kNames) list.Parameter(id, List(little).Text());
     for (const std::uint16_t id : kData) list.Parameter(id, List(little).U32(3).Octets({1, 2, 3}));
     list.Parameter(kData[0], List(little).U32(0));
@@ -218,10 +225,29 @@ TEST(DiscoveryList, HoldsPartitionsWithTheirEnds) {
   EXPECT_EQ(DropOf(kPartitions, List().U32(1).Text(3)), kTooLong) << "no NUL";
 }
 
-PacketBytes GuidOf(const test::PrefixBytes& prefix, std::uint8_t last_of_entity = 0xc1) {
-  PacketBytes guid(prefix.begin(), prefix.end());
-  guid.insert(guid.end(), {0, 0, 1, last_of_entity});
-  return guid;
+// One of 64 kB had 8000 partitions, and each process kept 128 such permanently.
+TEST(DiscoveryList, HoldsNoMorePartitionsThanAnEndpointHas) {
+  const auto of = [](std::uint32_t partitions) {
+    List list;
+    list.U32(partitions);
+    for (std::uint32_t i = 0; i < partitions; ++i) list.Text();
+    return DropOf(kPartitions, list);
+  };
+  EXPECT_EQ(of(64), kSound);
+  EXPECT_EQ(of(65), kTooLong);
+}
+
+TEST(DiscoveryList, IsNoLongerThanWhatAnEndpointSaysOfItself) {
+  const auto of = [](std::uint16_t id, std::uint32_t bytes) {
+    return DropOf(id, List().U32(bytes).Octets(PacketBytes(bytes)));
+  };
+  EXPECT_EQ(of(kData[0], 8000), kSound) << "of Cyclone DDS with long user data";
+  EXPECT_EQ(of(kData[0], 8192), kTooLong);
+  EXPECT_EQ(of(0x75, 16'000), kSound) << "a type";
+  EXPECT_EQ(of(0x75, 17'000), kTooLong);
+  List many;
+  for (int i = 0; i < 1000; ++i) many.Parameter(kNames[0], List().Text());
+  EXPECT_EQ(DropOfList(many.End()), kTooLong);
 }
 
 // An announcement of kAnnounced with more parameters at its end.
@@ -262,6 +288,19 @@ TEST(DiscoveryList, NamesEndpointsByTheHashOfTheirKeyToo) {
   const PacketBytes list =
       List().Parameter(0x70, GuidOf(kAnnounced)).Parameter(0x5a, GuidOf(kAnnounced)).End();
   EXPECT_EQ(DropOfList(list), kSound);
+}
+
+// A list with a second name was counted as one of the first: the library takes the last.
+TEST(DiscoveryList, NamesOneEndpoint) {
+  const auto drop_of = [](std::uint16_t id, const PacketBytes& value) {
+    return DropOfList(List().Parameter(0x5a, GuidOf(kAnnounced)).Parameter(id, value).End());
+  };
+  for (const std::uint16_t id : {std::uint16_t{0x5a}, std::uint16_t{0x70}}) {
+    EXPECT_EQ(drop_of(id, GuidOf(kAnnounced)), kSound);
+    EXPECT_EQ(drop_of(id, GuidOf(kAnnounced, 0xc2)), PacketDrop::kMalformed);
+    EXPECT_EQ(drop_of(id, PacketBytes(12)), PacketDrop::kMalformed);
+    EXPECT_EQ(drop_of(id, {}), PacketDrop::kMalformed);
+  }
 }
 
 TEST(DiscoveryList, ComesInOnePiece) {

@@ -22,8 +22,8 @@ constexpr std::uint32_t kLease_s = 10;
 constexpr Nanoseconds kNineTenths = seconds(9);
 
 bool Announce(LeaseWatch& watch, const test::PrefixBytes& by, SteadyTime now,
-              std::int64_t number = 1) {
-  return watch.Hear(RtpsPacket(by).InfoTs().Announcement(by, number, kLease_s).Bytes(), now);
+              std::int64_t number = 1, std::uint32_t lease_s = kLease_s) {
+  return watch.Hear(RtpsPacket(by).InfoTs().Announcement(by, number, lease_s).Bytes(), now);
 }
 
 TEST(LeaseWatch, TakesLeaveOnceOfOneThatIsSilentForNearlyItsLease) {
@@ -42,6 +42,16 @@ TEST(LeaseWatch, IsSatisfiedWithWhateverAParticipantSends) {
   EXPECT_FALSE(watch.Hear(sample.Bytes(), kFirst + seconds(8))) << "announces no participant";
   EXPECT_FALSE(watch.TakeFarewell(kFirst + seconds(8) + kNineTenths - milliseconds(1)));
   EXPECT_TRUE(watch.TakeFarewell(kFirst + seconds(8) + kNineTenths));
+}
+
+// The library, to which no lease is longer than 120 s, had dropped such a one before its farewell.
+TEST(LeaseWatch, TakesLeaveOfOneWithALongLeaseBeforeTheLibraryDropsIt) {
+  for (const std::uint32_t lease_s : {121U, 1000U, 0x7fff'ffffU}) {
+    LeaseWatch watch;
+    Announce(watch, kDying, kFirst, 1, lease_s);
+    EXPECT_FALSE(watch.TakeFarewell(kFirst + seconds(107)).has_value());
+    EXPECT_TRUE(watch.TakeFarewell(kFirst + seconds(108)).has_value()) << lease_s;
+  }
 }
 
 TEST(LeaseWatch, NamesTheOneThatDiedNotTheOneThatIsHeard) {

@@ -63,6 +63,14 @@ TEST_F(Unfit, AJoinWithTheWrongDurabilityIsToldWithBothValues) {
                           "requested TRANSIENT_LOCAL"));
 }
 
+// They never match, and nothing said why.
+TEST_F(Unfit, AnExclusiveWriterOfASharedReaderIsNamed) {
+  FoundEndpoint writer = JoinWriter();
+  writer.exclusive = true;
+  EXPECT_THAT(Lines({writer}),
+              ElementsAre(HasSubstr("ownership offered EXCLUSIVE, requested SHARED")));
+}
+
 TEST_F(Unfit, AWriterWithoutAPartitionIsTold) {
   EXPECT_THAT(Lines({JoinWriter("")}),
               ElementsAre(HasSubstr("a writer of fleet/join with no partition")));

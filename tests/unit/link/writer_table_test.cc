@@ -294,6 +294,50 @@ TEST(WriterTable, HearsSamplesAndRangesOfAWriterThatIsYearsOld) {
   EXPECT_TRUE(ranges.Range(4 * WriterTable::kMostAtFirst));
 }
 
+// How many of the counts that reach one peer pass, each a step beyond the last one.
+int CountsThatPass(std::uint32_t fleet, int packets, std::int64_t step, Nanoseconds apart) {
+  WriterTable table(64, 4711, fleet);
+  SteadyTime now = kMeeting;
+  std::int64_t count = 1;
+  int passed = 0;
+  for (int i = 0; i < packets; ++i) {
+    passed += table.IsPlausible(Guid(1), count, Statement::kCount, now) ? 1 : 0;
+    count += step;
+    now += apart;
+  }
+  return passed;
+}
+
+// Regression: the library counts the ACKNACKs of a reader to all of its writers as one. An observer
+// that acknowledged the statuses of 75 vehicles and more was heard by none of them again.
+TEST(WriterTable, PassesTheCountsOfAReaderThatAnswersAWholeFleet) {
+  for (const std::uint32_t fleet : {2U, 30U, 75U, 100U, 200U, 500U}) {
+    EXPECT_EQ(CountsThatPass(fleet, 300, fleet, milliseconds(200)), 300) << fleet;
+  }
+}
+
+// Regression: 2.9.1 asks each writer of discovery that does not answer 14 times a second, and
+// counts that too: what it sent to the others from then on was refused.
+TEST(WriterTable, PassesTheCountsOfAReaderThatAsksManyStrangers) {
+  for (const std::int64_t rate_hz : {300, 1000, 5000}) {
+    WriterTable table(64, 4711, 2);
+    SteadyTime now = kMeeting;
+    std::int64_t count = 1;
+    ASSERT_TRUE(table.IsPlausible(Guid(1), count, Statement::kCount, now));
+    now += seconds(20);  // 14 of them a second
+    count += 280;
+    ASSERT_TRUE(table.IsPlausible(Guid(1), count, Statement::kCount, now));
+    int refused = 0;
+    for (int second = 0; second < 100; ++second) {
+      now += seconds(1);
+      count += rate_hz;
+      refused += table.IsPlausible(Guid(1), count, Statement::kCount, now) ? 0 : 1;
+    }
+    EXPECT_LE(refused, 3) << rate_hz;
+    EXPECT_FALSE(table.IsPlausible(Guid(1), 0xffff'ffff, Statement::kCount, now));
+  }
+}
+
 TEST(WriterTable, ForgetsStrangersBeforeTheFleet) {
   WriterTable table(64, 4711);
   SteadyTime now = kMeeting;

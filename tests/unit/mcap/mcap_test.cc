@@ -193,6 +193,25 @@ TEST(Mcap, ADamagedChunkIsNoticed) {
   EXPECT_NE(ReadAll(damaged).result.fault, "");
 }
 
+// Of the indexes between chunks a reader in order needs nothing: only the checksum of the data
+// covers them.
+TEST(Mcap, DamageAnywhereInTheDataIsNoticed) {
+  Recorder recorder;
+  for (std::uint32_t n = 1; n <= 20; ++n) {
+    recorder.Put(n);
+    if (n % 10 == 0) recorder.writer.Flush();
+  }
+  const std::size_t data_end = recorder.bytes.size();
+  recorder.writer.Close();
+  ASSERT_EQ(ReadAll(recorder.bytes).result.fault, "");
+  constexpr std::size_t kDamage = 64;
+  for (std::size_t at = 0; at + kDamage <= data_end; ++at) {
+    std::string damaged = recorder.bytes;
+    damaged.replace(at, kDamage, kDamage, '\xff');
+    EXPECT_NE(ReadAll(damaged).result.fault, "") << "at " << at;
+  }
+}
+
 TEST(Mcap, RandomDamageNeverDoesMoreThanEndTheReading) {
   Recorder recorder;
   for (std::uint32_t n = 1; n <= 50; ++n) recorder.Put(n);

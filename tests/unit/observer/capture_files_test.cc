@@ -100,6 +100,35 @@ TEST_F(CaptureFilesTest, TheFileOfALaterSampleIsThereFromTheStart) {
   EXPECT_EQ(MessagesIn(Path("run.mcap")), 1U);
 }
 
+TEST_F(CaptureFilesTest, OneThatIsDiscardedLeavesOnlyWhatWasThere) {
+  std::ofstream(Path("other.mcap")) << "precious";
+  CaptureFiles whole({.path = Path("run.mcap"), .most_chunks = 1}, {});
+  for (int n = 0; n < 30; ++n) EXPECT_TRUE(whole.Write(Sample(1'000'000), SteadyTime{0}));
+  EXPECT_GT(whole.Parts(), 2U);
+  whole.Discard();
+  CaptureFiles taken({.path = Path("other.mcap")}, {});
+  EXPECT_FALSE(taken.Start(SteadyTime{0}));
+  taken.Discard();
+  std::vector<std::string> left;
+  for (const auto& file : fs::directory_iterator(folder_)) left.push_back(file.path().filename());
+  EXPECT_THAT(left, ::testing::ElementsAre("other.mcap"));
+}
+
+TEST_F(CaptureFilesTest, DiscardedPartsLeaveThoseOfAnEarlierRecording) {
+  const CaptureOptions options{.path = Path("run.mcap"), .split_time = std::chrono::seconds(10)};
+  CaptureFiles earlier(options, {});
+  EXPECT_TRUE(earlier.Write(Sample(10), SteadyTime{0}));
+  EXPECT_TRUE(earlier.Close());
+  CaptureFiles discarded(options, {});
+  for (int s = 0; s < 30; ++s) EXPECT_TRUE(discarded.Write(Sample(10), std::chrono::seconds(s)));
+  EXPECT_TRUE(fs::exists(Path("run-0004.mcap")));
+  discarded.Discard();
+  EXPECT_TRUE(fs::exists(Path("run-0001.mcap")));
+  for (const char* part : {"run-0002.mcap", "run-0003.mcap", "run-0004.mcap"}) {
+    EXPECT_FALSE(fs::exists(Path(part))) << part;
+  }
+}
+
 TEST_F(CaptureFilesTest, AllPartsTogetherStayWithinWhatIsKept) {
   constexpr std::uint64_t kKeep = 2'500'000;
   CaptureFiles files({.path = Path("run.mcap"), .split_bytes = 10'000'000, .keep_bytes = kKeep},
@@ -117,6 +146,44 @@ TEST_F(CaptureFilesTest, AllPartsTogetherStayWithinWhatIsKept) {
   EXPECT_TRUE(files.Close());
   EXPECT_LE(taken(), kKeep);
   EXPECT_GT(taken(), kKeep / 2);
+}
+
+// It started from 0001 again and failed hours later, at the first number that was still there.
+TEST_F(CaptureFilesTest, ARestartedRecorderContinuesAfterThePartsThatAreThere) {
+  const CaptureOptions options{
+      .path = Path("run.mcap"), .split_time = std::chrono::seconds(10), .keep_bytes = 3'000'000};
+  const auto file_of = [this](std::size_t size, const std::string& name) {
+    std::ofstream(Path(name)) << std::string(size, 'x');
+  };
+  file_of(1'500'000, "run-0003.mcap");
+  file_of(1'300'000, "run-0004.mcap");
+  for (const char* other : {"run-9.mcap", "run-0007.mcap.new", "run-fast-0008.mcap", "run-a.mcap"})
+    file_of(2'000'000, other);
+  CaptureFiles files(options, {});
+  for (int second = 0; second < 20; ++second) {
+    EXPECT_TRUE(files.Write(Sample(50'000), std::chrono::seconds(second))) << files.Fault();
+    EXPECT_TRUE(files.Flush());
+  }
+  EXPECT_TRUE(files.Close());
+  EXPECT_EQ(files.Parts(), 2U);
+  EXPECT_EQ(MessagesIn(Path("run-0005.mcap")), 10U);
+  EXPECT_EQ(MessagesIn(Path("run-0006.mcap")), 10U);
+  EXPECT_FALSE(fs::exists(Path("run-0003.mcap"))) << "all parts together are within --keep";
+  EXPECT_TRUE(fs::exists(Path("run-0004.mcap")));
+  EXPECT_TRUE(fs::exists(Path("run-9.mcap"))) << "it is no part";
+}
+
+TEST_F(CaptureFilesTest, OfPartsThatAnotherRecorderWritesNothingIsTakenOver) {
+  const CaptureOptions options{.path = Path("run.mcap"), .split_bytes = 1'000'000};
+  CaptureFiles first(options, {});
+  EXPECT_TRUE(first.Start(SteadyTime{0}));
+  CaptureFiles second(options, {});
+  EXPECT_FALSE(second.Start(SteadyTime{0}));
+  EXPECT_THAT(second.Fault(), HasSubstr("run-0001.mcap: another recorder writes it"));
+  EXPECT_FALSE(second.Close());
+  EXPECT_TRUE(first.Close());
+  CaptureFiles third(options, {});
+  EXPECT_TRUE(third.Start(SteadyTime{0}));
 }
 
 TEST_F(CaptureFilesTest, APartWhoseIndexHasGrownLargeIsFollowedByAnother) {

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "services/observer/fleet/fleet_json.h"
+#include "services/observer/fleet/frame_json.h"
+
 namespace giveway {
 namespace {
 
@@ -75,6 +78,53 @@ TEST(FleetMetrics, OneThatIsSilentIsNoLongerHeard) {
   const std::string later = FleetMetrics(ViewOfSeven(), {}, seconds(9));
   EXPECT_THAT(later, HasSubstr("giveway_vehicle_heard{vehicle=\"7\"} 0"));
   EXPECT_THAT(later, HasSubstr("giveway_vehicle_silence_seconds{vehicle=\"7\"} 8"));
+}
+
+TEST(FleetMetrics, AWorldWithoutVehiclesIsHeard) {
+  FleetView view;
+  view.Fold({.world = 5}, seconds(1));
+  EXPECT_THAT(FleetMetrics(view, {}, seconds(9)), HasSubstr("\ngiveway_observer_world_heard 1\n"));
+  view.Fold({}, seconds(10));
+  EXPECT_THAT(FleetMetrics(view, {}, seconds(10)), HasSubstr("\ngiveway_observer_world_heard 0\n"));
+}
+
+// The page and both JSONs went by the time of its last sample.
+TEST(FleetJson, AWorldWithoutVehiclesIsHeardUntilItIsGone) {
+  FleetView view;
+  view.Fold({.world = 5}, seconds(1));
+  EXPECT_THAT(FleetJson(view, seconds(9)), HasSubstr("\"world\":{\"heard\":true"));
+  EXPECT_THAT(FrameJson(view, seconds(9)), HasSubstr("\"heard\":true"));
+  view.Fold({}, seconds(10));
+  EXPECT_THAT(FleetJson(view, seconds(10)), HasSubstr("\"world\":{\"heard\":false"));
+  EXPECT_THAT(FrameJson(view, seconds(10)), HasSubstr("\"heard\":false"));
+}
+
+TEST(FleetJson, AWorldThatFellSilentIsNoLongerHeard) {
+  FleetView view;
+  view.Fold({.truths = {{.vehicle = VehicleId{7}, .epoch = WorldEpoch{3}}}, .world = 5},
+            seconds(1));
+  EXPECT_THAT(FleetJson(view, seconds(2)), HasSubstr("\"world\":{\"heard\":true"));
+  EXPECT_THAT(FleetJson(view, seconds(3)),
+              HasSubstr("\"world\":{\"heard\":false,\"world_epoch\":3"));
+}
+
+// VehicleHalted fired for ever for a vehicle that had crashed in halt.
+TEST(FleetMetrics, OfOneThatIsSilentOnlyThatItIsIsServed) {
+  const std::string later = FleetMetrics(ViewOfSeven(), {}, seconds(9));
+  for (const char* family : {"mode", "rule", "speed_meters_per_second", "deadline_missed_total",
+                             "beacons_rejected_total", "heap_bytes", "beacon_age_seconds_count"}) {
+    const std::string of_seven = std::string("giveway_vehicle_") + family + "{vehicle=\"7\"";
+    EXPECT_THAT(FleetMetrics(ViewOfSeven(), {}, seconds(1)), HasSubstr(of_seven));
+    EXPECT_THAT(later, Not(HasSubstr(of_seven)));
+  }
+}
+
+// The alert VehicleSilent resolves: a restarted process has another id.
+TEST(FleetMetrics, OneThatIsGoneForMinutesIsNoLongerServed) {
+  FleetView view = ViewOfSeven();
+  const SteadyTime late = seconds(2) + FleetSnapshot::kDroppedAfter;
+  view.Fold({}, late);
+  EXPECT_THAT(FleetMetrics(view, {}, late), Not(HasSubstr("vehicle=\"7\"")));
 }
 
 }  // namespace

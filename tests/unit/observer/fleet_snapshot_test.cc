@@ -29,6 +29,10 @@ Truth TruthOf(VehicleId vehicle, double time_s, WorldEpoch epoch = kWorld) {
   return {.vehicle = vehicle, .epoch = epoch, .time_s = time_s};
 }
 
+Truth GoneOf(VehicleId vehicle) {
+  return {.vehicle = vehicle, .epoch = kWorld, .time_s = 2, .present = false};
+}
+
 RosterEntry EntryOf(RunState state, WorldEpoch epoch = kWorld) {
   RosterEntry entry;
   entry.epoch = epoch;
@@ -73,6 +77,60 @@ TEST(FleetSnapshot, OneThatSaidItsLastWordsHasLeftUntilItComesBack) {
   EXPECT_EQ(LivenessOf(fleet, kOne, seconds(60)), Liveness::kLeft);
   fleet.Fold({.statuses = {StatusOf(kOne)}}, seconds(61));
   EXPECT_EQ(LivenessOf(fleet, kOne, seconds(61)), Liveness::kHeard);
+}
+
+// A crashed vehicle comes back under another id; its old one stayed silent until the observer was
+// restarted, and the alert for it never resolved.
+TEST(FleetSnapshot, ASilentVehicleIsDroppedMinutesAfterTheWorldHasTakenItsBodyOut) {
+  const SteadyTime late = seconds(1) + FleetSnapshot::kDroppedAfter;
+  FleetSnapshot fleet;
+  fleet.Fold({.truths = {TruthOf(kOne, 1)}, .statuses = {StatusOf(kOne)}}, seconds(1));
+  fleet.Fold({.truths = {TruthOf(kOne, 2)}}, late + seconds(1));
+  EXPECT_TRUE(fleet.Vehicles().contains(kOne)) << "its body stands in the world";
+  fleet.Fold({.truths = {GoneOf(kOne)}}, late);
+  EXPECT_TRUE(fleet.Vehicles().contains(kOne)) << "the alert has not fired yet";
+  fleet.Fold({}, late + seconds(1));
+  EXPECT_FALSE(fleet.Vehicles().contains(kOne));
+}
+
+TEST(FleetSnapshot, OneThatWasNeverHeardIsDroppedWithItsBody) {
+  FleetSnapshot fleet;
+  fleet.Fold({.truths = {TruthOf(kOne, 1), TruthOf(kTwo, 1)}}, seconds(1));
+  fleet.Fold({.truths = {GoneOf(kOne)}}, seconds(2));
+  EXPECT_FALSE(fleet.Vehicles().contains(kOne));
+  EXPECT_TRUE(fleet.Vehicles().contains(kTwo));
+}
+
+TEST(FleetSnapshot, BodiesOfAnEarlierWorldHoldNoSilentVehicle) {
+  FleetSnapshot fleet;
+  fleet.Fold({.truths = {TruthOf(kOne, 1)}, .statuses = {StatusOf(kOne)}}, seconds(1));
+  fleet.Fold({.truths = {TruthOf(kTwo, 1, WorldEpoch{8})}}, seconds(500));
+  EXPECT_FALSE(fleet.Vehicles().contains(kOne));
+}
+
+constexpr std::uint64_t kParticipant = 5;
+
+// The alert WorldSilent fired for it.
+TEST(FleetSnapshot, AWorldThatIsThereWithoutBodiesIsHeardAlthoughItPublishesNothing) {
+  FleetSnapshot fleet;
+  EXPECT_FALSE(fleet.World().IsHeard(seconds(1)));
+  fleet.Fold({.world = kParticipant}, seconds(1));
+  EXPECT_TRUE(fleet.World().IsHeard(seconds(9)));
+  EXPECT_FALSE(fleet.IsSettled(seconds(9))) << "nothing is known of its vehicles";
+  fleet.Fold({.truths = {TruthOf(kOne, 1)}, .world = kParticipant}, seconds(10));
+  fleet.Fold({.truths = {GoneOf(kOne)}, .world = kParticipant}, seconds(11));
+  EXPECT_TRUE(fleet.World().IsHeard(seconds(19))) << "its last vehicle has left";
+  fleet.Fold({}, seconds(20));
+  EXPECT_FALSE(fleet.World().IsHeard(seconds(20))) << "it has left, too";
+}
+
+TEST(FleetSnapshot, AWorldWithBodiesIsHeardOnlyWhileItPublishes) {
+  FleetSnapshot fleet;
+  fleet.Fold({.truths = {TruthOf(kOne, 1)}, .world = kParticipant}, seconds(1));
+  fleet.Fold({.world = kParticipant}, seconds(3));
+  EXPECT_FALSE(fleet.World().IsHeard(seconds(3)));
+  fleet.Fold({.world = kParticipant + 1}, seconds(12));
+  EXPECT_TRUE(fleet.World().IsHeard(seconds(12))) << "the next one, which has none yet";
 }
 
 TEST(FleetSnapshot, OneThatClaimsIdsWithoutEndTakesNoMoreThanSoMany) {

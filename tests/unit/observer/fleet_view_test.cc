@@ -33,8 +33,11 @@ TEST(FleetView, ABodyThatTheWorldHasTakenOutIsNone) {
   FleetView view;
   Truth truth = TruthOf(kFirst);
   truth.present = true;
-  view.Fold({.truths = {truth}, .statuses = {StatusWith(0)}}, seconds(1));
+  ReceivedBeacon received{.crc_valid = true, .name_valid = true, .writer = 1};
+  received.beacon.vehicle = kSeven;
+  view.Fold({.truths = {truth}, .statuses = {StatusWith(0)}, .beacons = {received}}, seconds(1));
   ASSERT_NE(view.Find(kSeven)->Body(), nullptr);
+  ASSERT_NE(FleetJson(view, seconds(1)).find("world_from_body"), std::string::npos);
   truth.present = false;
   view.Fold({.truths = {truth}}, seconds(2));
   EXPECT_EQ(view.Find(kSeven)->Body(), nullptr);
@@ -84,7 +87,7 @@ TEST(FleetView, ANewWorldTakesBodiesAndSignalsOfTheOldAway) {
   FleetView view;
   SignalState signal;
   signal.id = SignalId{1};
-  view.Fold({.truths = {TruthOf(kFirst)}}, seconds(1));
+  view.Fold({.truths = {TruthOf(kFirst)}, .statuses = {StatusWith(1)}}, seconds(1));
   view.Fold({.signals = {signal}}, seconds(1));
   ASSERT_TRUE(view.Find(kSeven)->truth);
   Truth other = TruthOf(kSecond);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "services/observer/fleet/fleet_json.h"
 #include "services/observer/fleet/scene_json.h"
@@ -55,12 +56,16 @@ TEST(FrameJson, TheTruthIsWhereTheBodyIsAndTheBeaconWhereItBelievesToBe) {
   EXPECT_THAT(frame, HasSubstr("\"time_ms\":12500"));
 }
 
+// Its last beacon made it one for five minutes: others that came by touched it in the report.
 TEST(FrameJson, ABodyThatWasTakenAwayIsNotDrawnThere) {
   FleetView view;
   Truth gone = TruthOf(7);
-  view.Fold({.truths = {gone}}, seconds(1));
+  view.Fold({.truths = {gone}, .statuses = {{.vehicle = gone.vehicle}}, .beacons = {BeaconOf(7)}},
+            seconds(1));
+  EXPECT_THAT(FrameJson(view, seconds(1)), HasSubstr(",1]]"));
   gone.present = false;
   view.Fold({.truths = {gone}}, seconds(1));
+  EXPECT_THAT(FrameJson(view, seconds(1)), HasSubstr("[7,0,0,0,0,1,"));
   EXPECT_THAT(FrameJson(view, seconds(1)), HasSubstr(",0]]"));
 }
 
@@ -99,6 +104,23 @@ TEST(FrameJson, CarriesTheLastEvents) {
   EXPECT_THAT(frame, Not(HasSubstr("\"seq\":76,")));
 }
 
+// Regression: one with a wall, an obstacle or a door came without the point that was touched, and
+// was on no map.
+TEST(FrameJson, AContactHasBothItsPlaces) {
+  FleetView view;
+  WorldEvent event;
+  event.kind = EventKind::kContact;
+  event.vehicle = VehicleId{7};
+  event.position_world = {1, 2};
+  event.other_position_world = {1.5, 2};
+  view.Fold({.events = {event}}, seconds(1));
+  const auto frame = nlohmann::json::parse(FrameJson(view, seconds(1)));
+  const auto& contact = frame["events"].front();
+  EXPECT_FALSE(contact.contains("other"));
+  EXPECT_EQ(contact["position_world"]["x_m"].get<double>(), 1);
+  EXPECT_EQ(contact["other_position_world"]["x_m"].get<double>(), 1.5);
+}
+
 TEST(FrameJson, AFrameOf200VehiclesTakesNoMoreThan300kBASecond) {
   FleetView view;
   link::Observed observed;
@@ -128,6 +150,43 @@ TEST(FleetJson, HasTheNamesOfTheIdl) {
   EXPECT_THAT(*vehicle, HasSubstr("\"beacon\":{\"vehicle\":7,"));
   EXPECT_THAT(*vehicle, HasSubstr("\"truth\":{"));
   EXPECT_FALSE(VehicleJson(view, VehicleId{8}, seconds(1)));
+}
+
+// The page had no name for the last two: it showed "undefined", and stopped with a filter.
+TEST(SceneJson, NamesEveryRule) {
+  const auto scene = nlohmann::json::parse(SceneJson({"domain 7", std::nullopt}));
+  EXPECT_EQ(scene["rules"].size(), static_cast<std::size_t>(kLastRule) + 1);
+  EXPECT_EQ(scene["rules"].back().get<std::string>(), "lost");
+}
+
+// Regression: of a scenario with places alone they were those of a usual vehicle.
+TEST(SceneJson, EmissionAndSonarAreThoseOfAPlaceWhereThereAreNoVehicles) {
+  Scenario scenario;
+  VehicleOptions& place = scenario.spawns.emplace_back();
+  place.emission_radius_m = 3.5;
+  place.profile.sonar_max_range_m = 1.25;
+  auto scene = nlohmann::json::parse(SceneJson({"domain 7", scenario}));
+  EXPECT_EQ(scene["emission_radius_m"].get<double>(), 3.5);
+  EXPECT_EQ(scene["sonar"]["max_range_m"].get<double>(), 1.25);
+  scenario.vehicles.emplace_back().emission_radius_m = 4.5;
+  scene = nlohmann::json::parse(SceneJson({"domain 7", scenario}));
+  EXPECT_EQ(scene["emission_radius_m"].get<double>(), 4.5);
+}
+
+// Its cones would all start at the centre, straight ahead.
+TEST(SceneJson, WithoutAScenarioTheSonarIsThatOfAUsualRobot) {
+  const auto scene = nlohmann::json::parse(SceneJson({"domain 7", std::nullopt}));
+  const SensorMount last = PioneerP3dx().sonar.back();
+  EXPECT_EQ(scene["sonar"]["mounts"].back(),
+            nlohmann::json::array({last.position_body.x, last.position_body.y, last.bearing_rad}));
+  EXPECT_NE(last.bearing_rad, 0);
+}
+
+// By it a page knows whether what it kept is of the observer that it found again.
+TEST(SceneJson, NamesTheObserverOfALivePage) {
+  const auto live = nlohmann::json::parse(SceneJson({"domain 7", std::nullopt, "12 of 34"}));
+  EXPECT_EQ(live["observer"].get<std::string>(), "12 of 34");
+  EXPECT_FALSE(nlohmann::json::parse(SceneJson({"run", std::nullopt})).contains("observer"));
 }
 
 TEST(SceneJson, NamesTheColumnsAndWhatStandsInTheScenario) {

@@ -6,9 +6,13 @@
 #include <cstdlib>
 #include <initializer_list>
 
+#include "services/qos/qos_rules.h"
+#include "tests/support/flag_twins.h"
+
 namespace giveway {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 
 std::variant<ObserverFlags, int> Parse(std::initializer_list<const char*> flags,
@@ -44,6 +48,15 @@ TEST(ObserverFlags, AreRefusedInWords) {
     ASSERT_TRUE(std::holds_alternative<int>(parsed));
     EXPECT_EQ(std::get<int>(parsed), 2);
   }
+}
+
+// Regression: GIVEWAY_ROS2 was taken for a misspelt GIVEWAY_QOS.
+TEST(ObserverFlags, HaveTwinsThatTheRulesOfVariablesKnow) {
+  ::testing::internal::CaptureStdout();
+  EXPECT_EQ(std::get<int>(Parse({"--help"})), 0);
+  const auto twins = test::FlagTwins(::testing::internal::GetCapturedStdout());
+  EXPECT_GT(twins.size(), 15U);
+  for (const std::string& twin : twins) EXPECT_THAT(qos::OwnVariables(), Contains(twin));
 }
 
 TEST(ObserverFlags, TakeDomainAndInterfaceOfTheOnlyFleet) {

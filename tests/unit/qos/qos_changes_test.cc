@@ -79,16 +79,41 @@ TEST(Changes, OfWhatNoPolicyNamesAreToldByTheirElement) {
   EXPECT_EQ(changes[0].effect, Effect::kRestart);
 }
 
+std::string Peers(const std::string& list) {
+  return Set("<participant profile_name=\"p\"><rtps><builtin><initialPeersList>" + list +
+             "</initialPeersList></builtin></rtps></participant>");
+}
+
 TEST(Changes, OfAListKeepItsOrder) {
-  const auto with = [](const std::string& list) {
-    return Set("<participant profile_name=\"p\"><rtps><builtin><initialPeersList>" + list +
-               "</initialPeersList></builtin></rtps></participant>");
-  };
   const std::string a = "<locator><udpv4><address>10.0.0.1</address></udpv4></locator>";
   const std::string b = "<locator><udpv4><address>10.0.0.2</address></udpv4></locator>";
-  EXPECT_THAT(Changes(with(a + b), with(a + b)), IsEmpty());
-  EXPECT_THAT(Changes(with(a), with(a + b)), SizeIs(1));
-  EXPECT_THAT(Changes(with(a + b), with(b + a)), SizeIs(1));
+  EXPECT_THAT(Changes(Peers(a + b), Peers(a + b)), IsEmpty());
+  EXPECT_THAT(Changes(Peers(a), Peers(a + b)), SizeIs(1));
+  EXPECT_THAT(Changes(Peers(a + b), Peers(b + a)), SizeIs(2));
+}
+
+// Two lists whose texts are the same in a row.
+TEST(Changes, OfWhichEntryOfAListSaysWhatAreSeen) {
+  const std::string only = "<locator><udpv4><address>10.0.0.1</address></udpv4></locator>";
+  const std::string port = "<locator><udpv4><port>7</port></udpv4></locator>";
+  const std::string both =
+      "<locator><udpv4><address>10.0.0.1</address><port>7</port></udpv4></locator>";
+  EXPECT_THAT(Changes(Peers(only + port), Peers(both)), SizeIs(2));
+  EXPECT_THAT(Changes(Peers(only + only), Peers(only)), SizeIs(1));
+}
+
+// By its prefix Fast DDS 2.9.1 knows a server.
+TEST(Changes, OfAnAttributeAreSeen) {
+  const auto with = [](const std::string& prefix) {
+    return Set(
+        "<participant profile_name=\"p\"><rtps><builtin><discovery_config><discoveryServersList>"
+        "<RemoteServer prefix=\"" +
+        prefix + "\"/></discoveryServersList></discovery_config></builtin></rtps></participant>");
+  };
+  const auto changes = Changes(with("44.53.00"), with("44.53.01"));
+  ASSERT_THAT(changes, SizeIs(1));
+  EXPECT_THAT(changes[0].what, ::testing::EndsWith("RemoteServer@prefix"));
+  EXPECT_EQ(changes[0].to, "44.53.01");
 }
 
 TEST(Changes, OfAProfileThatComesOrGoesTakeARestart) {

@@ -76,6 +76,64 @@ TEST(Check, StopsCountingAtANumberAPersonReads) {
   EXPECT_EQ(ExitCode(findings), 2);
 }
 
+TEST(Check, CountsAllThatIsNotShownOfAllFiles) {
+  std::string wrong = "<dds><profiles>";
+  for (int i = 0; i < 300; ++i) wrong += "<data_writer profile_name=\"w\"/>";
+  wrong += "</profiles></dds>";
+  const Findings one = Check({{"a.xml", wrong}}, Deployment{.complete = false});
+  const Findings two = Check({{"a.xml", wrong}, {"b.xml", wrong}}, Deployment{.complete = false});
+  const auto more = [](const Findings& findings) { return std::stoi(findings.back().values); };
+  EXPECT_GT(more(one), 100);
+  EXPECT_EQ(more(two), 2 * more(one) + static_cast<int>(kMostFindings));
+}
+
+// Each set is sound by itself.
+TEST(Check, SaysWhichSetsNeverDiscoverEachOther) {
+  const std::string good = BytesOf(std::string(GIVEWAY_QOS_SETS) + "/default.xml");
+  const std::string client = BytesOf(std::string(GIVEWAY_QOS_SETS) + "/wan_discovery_server.xml");
+  const auto with = [](std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+  };
+  const std::string other_port =
+      with(good, "<builtin>", "<port><portBase>8000</portBase></port><builtin>");
+  const std::string other_server = with(client, "44.53.00", "44.53.01");
+  const std::string other_address = with(client, ">127.0.0.1<", ">10.1.2.3<");
+  const auto findings = [](const std::string& a, const std::string& b) {
+    return Check({{"a.xml", a}, {"b.xml", b}}, {});
+  };
+  EXPECT_THAT(findings(good, good), IsEmpty());
+  EXPECT_THAT(findings(client, client), IsEmpty());
+  EXPECT_THAT(findings(good, client), OfRule("discovery_mismatch"));
+  EXPECT_THAT(findings(good, other_port), OfRule("discovery_mismatch"));
+  EXPECT_THAT(findings(client, other_server), OfRule("discovery_mismatch"));
+  EXPECT_THAT(findings(client, other_address), OfRule("discovery_address"));
+  EXPECT_EQ(ExitCode(findings(client, other_address)), 1);
+}
+
+TEST(Check, HoldsTheSegmentOfSharedMemoryAgainstItsMessagesAsTheLibraryDoes) {
+  const auto with = [](const std::string& elements) {
+    return Check(
+        {{"qos.xml",
+          "<dds><profiles><transport_descriptors><transport_descriptor><transport_id>shm"
+          "</transport_id><type>SHM</type>" +
+              elements + "</transport_descriptor></transport_descriptors></profiles></dds>"}},
+        Deployment{.complete = false});
+  };
+  // 512 KiB, if it says nothing, or 0.
+  const std::string large = "<maxMessageSize>1000000</maxMessageSize>";
+  EXPECT_THAT(with(large), OfRule("segment_too_small"));
+  EXPECT_THAT(with("<segment_size>0</segment_size>"), ::testing::Not(OfRule("segment_too_small")));
+  EXPECT_THAT(with(large + "<segment_size>2000000</segment_size>"),
+              ::testing::Not(OfRule("segment_too_small")));
+}
+
+TEST(Check, RefusesADurationThatIsInfiniteAndHasParts) {
+  EXPECT_THAT(CheckBytes("<dds><profiles><data_writer profile_name='w'><qos><deadline><period>"
+                         "DURATION_INFINITY<sec>1</sec></period></deadline></qos></data_writer>"
+                         "</profiles></dds>"),
+              OfRule("wrong_value"));
+}
+
 // Each set alone is complete and valid; only together do they starve a reader.
 TEST(Check, HoldsTheWritersOfOneFileAgainstTheReadersOfAnother) {
   const std::string good = BytesOf(std::string(GIVEWAY_QOS_SETS) + "/default.xml");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "services/qos/compose.h"
+#include "services/qos/compose_text.h"
 #include "services/qos/profile_check.h"
 #include "tests/unit/qos/qos_files.h"
 
@@ -63,6 +64,51 @@ TEST(Compose, IsReadThroughAnchorsMergesAndVariables) {
   EXPECT_EQ(vehicle.qos_place.line, 17);
 }
 
+// Expansions that were not known gave the shipped default to be checked instead, silently.
+TEST(Compose, ExpandsVariablesAsComposeDoes) {
+  const std::vector<std::string> variables = {"SET=same_host", "EMPTY=", "SET=other"};
+  ComposeText text(variables);
+  EXPECT_EQ(text.Expanded("$SET-${SET}"), "same_host-same_host");
+  EXPECT_EQ(text.Expanded("${SET:?set it}${SET?}${SET:-x}${SET-x}"),
+            "same_hostsame_hostsame_hostsame_host");
+  EXPECT_EQ(text.Expanded("${SET:+with}${SET+with}${EMPTY:+with}${EMPTY+with}${NO+with}"),
+            "withwithwith");
+  EXPECT_EQ(text.Expanded("${EMPTY:-a}${EMPTY-b}${NO:-c}${NO-d}$NO"), "acd");
+  EXPECT_EQ(text.Expanded("${NO:-${SET}/${NO:-deep}}}"), "same_host/deep}");
+  EXPECT_EQ(text.Expanded("$$SET costs 5$ ${SET"), "$SET costs 5$ ${SET");
+  EXPECT_THAT(text.Missing(), IsEmpty());
+  EXPECT_EQ(text.Expanded("${NO:?why}${EMPTY?}${EMPTY:?why}"), "");
+  EXPECT_THAT(text.Missing(), ElementsAre("EMPTY", "NO"));
+}
+
+TEST(Compose, ReadsTheEnvFileNextToIt) {
+  EXPECT_THAT(EnvFileVariables("# no\n\nA=1\n export B = no\nexport C='x # y' # why\r\n"
+                               "D=a b # why\nE=\nno\nA=2"),
+              ElementsAre("A=2", "E=", "D=a b", "C=x # y", "A=1"));
+}
+
+TEST(Compose, SaysWhatMustBeSet) {
+  const ComposeRead read = Read("services:\n  a:\n    image: giveway:${TAG:?}\n");
+  EXPECT_THAT(RulesOf(read.findings), ElementsAre("compose_variable_missing"));
+  EXPECT_EQ(read.findings.front().subject, "TAG");
+}
+
+TEST(Compose, TakesTheDomainOfTheCommandBeforeTheVariable) {
+  const auto split = [](const std::string& command) {
+    const ComposeRead read = Read(
+        "services:\n"
+        "  a: {image: giveway, environment: {GIVEWAY_DOMAIN: 1}}\n"
+        "  b: {image: giveway, environment: {GIVEWAY_DOMAIN: 1}, command: [" +
+        command + "]}\n");
+    Findings findings;
+    CheckCompose(read.services, &findings);
+    return RulesOf(findings);
+  };
+  EXPECT_THAT(split("--domain, \"8\""), ElementsAre("domain_split"));
+  EXPECT_THAT(split("--domain=8"), ElementsAre("domain_split"));
+  EXPECT_THAT(split("--domain, \"1\""), IsEmpty());
+}
+
 TEST(Compose, TakesListsAsItTakesMaps) {
   const ComposeRead read = Read(
       "services:\n"
@@ -83,6 +129,25 @@ TEST(Compose, TakesListsAsItTakesMaps) {
   EXPECT_EQ(HostPath(service, "/thereabouts/x.xml"), "");
   EXPECT_TRUE(service.host_network && service.host_ipc && service.is_vehicle);
   EXPECT_EQ(service.containers, 3);
+}
+
+TEST(Compose, MergesListsOfMapsOfWhichTheFirstCountsMost) {
+  const ComposeRead read = Read(
+      "x-a: &a {GIVEWAY_DOMAIN: 7}\n"
+      "x-b: &b {GIVEWAY_DOMAIN: 8, GIVEWAY_QOS: lossy_radio}\n"
+      "services: {v: {image: giveway, environment: {<<: [*a, *b], GIVEWAY_ID: 1}}}\n");
+  ASSERT_EQ(read.services.size(), 1U);
+  EXPECT_EQ(read.services[0].domain.value, "7");
+  EXPECT_EQ(read.services[0].qos, "lossy_radio");
+}
+
+TEST(Compose, TakesAVariableWithoutAValueFromTheShell) {
+  for (const std::string_view environment : {"{GIVEWAY_QOS: }", "[GIVEWAY_QOS]"}) {
+    const std::string text =
+        "services: {v: {image: giveway, environment: " + std::string(environment) + "}}\n";
+    EXPECT_EQ(Read(text, {"GIVEWAY_QOS=same_host"}).services.at(0).qos, "same_host");
+    EXPECT_THAT(Read(text).services.at(0).environment, IsEmpty());
+  }
 }
 
 TEST(Compose, SaysWhichServicesNeverHearOfEachOther) {

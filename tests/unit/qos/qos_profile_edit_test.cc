@@ -40,6 +40,17 @@ TEST(ProfileEdit, AnEditChangesItsValueAndNothingElse) {
   EXPECT_EQ(Read(edited, Owner::kReader, kReader, Policy::kDeadline), 190 * kMs);
 }
 
+// What the tuner recommended after minutes of search was no XML, where its base started so.
+TEST(ProfileEdit, ACommentStandsBehindTheDeclarationWhereverThatIs) {
+  for (const std::string before : {"", "\xEF\xBB\xBF", "\n", "\xEF\xBB\xBF\r\n "}) {
+    const std::string noted = WithComment(before + Default(), "two--hyphens");
+    EXPECT_THAT(noted, HasSubstr("?>\n<!-- two-hyphens -->"));
+    EXPECT_EQ(WhyRefused({"f.xml", noted}, {}), WhyRefused({"f.xml", before + Default()}, {}));
+  }
+  EXPECT_EQ(WithComment("\n<dds/>", "note"), "\n<!-- note -->\n<dds/>");
+  EXPECT_EQ(WithComment("", "note"), "<!-- note -->\n");
+}
+
 TEST(ProfileEdit, AnEditThatSaysWhatIsThereChangesNoByte) {
   EXPECT_EQ(Edited(Default(), {{Owner::kReader, kReader, Policy::kDeadline, 150 * kMs},
                                {Owner::kReader, kReader, Policy::kReliability, kBestEffort},

@@ -55,11 +55,23 @@ TEST(Durations, AreSecondsAndNanosecondsOrInfinite) {
   EXPECT_EQ(ReadDuration(Duration("<nanosec>7</nanosec>")), 7);
   EXPECT_EQ(ReadDuration(Duration("DURATION_INFINITY")), kInfinite);
   EXPECT_EQ(ReadDuration(Duration("<sec>DURATION_INFINITE_SEC</sec>")), kInfinite);
-  EXPECT_EQ(ReadDuration(Duration("<sec>2147483647</sec>")), kInfinite);
+  EXPECT_EQ(ReadDuration(Duration("<sec>2147483647</sec><nanosec>4294967295</nanosec>")),
+            kInfinite);
+  // To the library the seconds alone are a time, which never matches where infinite is offered.
+  EXPECT_EQ(ReadDuration(Duration("<sec>2147483647</sec>")), 2'147'483'647'000'000'000);
   for (const char* wrong : {"", "1", "<sec/>", "<sec>-1</sec>", "<sec>s</sec>",
                             "<nanosec>1000000000</nanosec>", "<nanosec>-1</nanosec>"}) {
     EXPECT_EQ(ReadDuration(Duration(wrong)), std::nullopt) << wrong;
   }
+}
+
+// 500 us with zeros forgotten looked like nothing.
+TEST(Durations, AreWrittenWithAllDigitsThatSaySomething) {
+  EXPECT_EQ(DurationText(1'000'000'000), "1 s");
+  EXPECT_EQ(DurationText(1'000'500'000), "1.0005 s");
+  EXPECT_EQ(DurationText(250'000'000), "250 ms");
+  EXPECT_EQ(DurationText(1), "0.000001 ms");
+  EXPECT_EQ(DurationText(kInfinite), "infinite");
 }
 
 TEST(Numbers, AreReadAsTheLibraryReadsThem) {

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <functional>
+
 #include "services/qos/deployment.h"
 #include "services/qos/profile_check.h"
 #include "services/qos/request_offered.h"
@@ -113,6 +115,15 @@ TEST(Rollout, IsRefusedWhereProcessesWouldNoLongerFindEachOther) {
       PlanRollout(Fleet("default", 2), Shipped("wan_discovery_server"), "wan", std::nullopt);
   ASSERT_THAT(rollout.blocked, ::testing::Not(::testing::IsEmpty()));
   EXPECT_EQ(rollout.blocked[0].rule, "discovery_mismatch");
+}
+
+// Of some hundred thousand pairs of processes only a few are of different sets.
+TEST(Rollout, OfAHundredVehiclesHoldsEachPairOfSetsAgainstEachOtherOnce) {
+  const auto processes = Fleet("default", 100);
+  const Rollout rollout = PlanRollout(processes, Shipped("lossy_radio"), "lossy_radio", 3);
+  EXPECT_THAT(rollout.blocked, ::testing::IsEmpty());
+  EXPECT_EQ(std::ranges::count_if(rollout.steps, std::not_fn(&RolloutStep::between)), 101)
+      << "vehicles and the world";
 }
 
 TEST(Rollout, LeavesDeadlinesThatNeverEndAsTheyAre) {

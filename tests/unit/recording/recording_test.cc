@@ -6,6 +6,7 @@
 #include <bit>
 #include <limits>
 
+#include "recording.pb.h"
 #include "services/recording/recording_fields.h"
 #include "tests/support/recorded_crossing.h"
 
@@ -115,6 +116,15 @@ TEST(Recording, EveryFieldSurvives) {
 TEST(Recording, NothingAtAllSurvivesToo) {
   ExpectToSurvive(RecordedStep{});
   ExpectToSurvive(RecordedLife{});
+}
+
+TEST(Recording, AnOptionThatAnOlderOneDoesNotHaveIsWhatItWas) {
+  schema::recording::Record message;
+  ASSERT_TRUE(message.ParseFromString(ToBytes(Filled<RecordedLife>())));
+  message.mutable_life()->mutable_options()->clear_silent_body_stays_ns();
+  const std::optional<Record> back = RecordFrom(message.SerializeAsString());
+  ASSERT_TRUE(back.has_value());
+  EXPECT_EQ(std::get<RecordedLife>(*back).options.silent_body_stays, std::chrono::seconds(6));
 }
 
 TEST(Recording, EveryKindOfQosEventSurvives) {

@@ -58,9 +58,8 @@ TEST(Picture, ARunWithoutTruthsIsDrawn) {
 TEST(Picture, TextsAreEscaped) {
   Scenario scenario = Crossing();
   scenario.name = "a<b>&\"c\x01\xff";
-  WorldEvent verdict = Event(EventKind::kVerdict, 9, 0);
-  verdict.text = "</svg><script>";
-  const std::string svg = DrawRun(scenario, {}, {verdict});
+  const Headline headline{Verdict::kFailed, "</svg><script>"};
+  const std::string svg = DrawRun(scenario, {}, {}, headline);
   EXPECT_THAT(svg, HasSubstr("a&lt;b&gt;&amp;&quot;c \xef\xbf\xbd"));
   EXPECT_THAT(svg, Not(HasSubstr("<script>")));
 }
@@ -126,14 +125,27 @@ TEST(Picture, ADeathIsMarkedOnceWhereTheVehicleWasSeenLast) {
 }
 
 TEST(Picture, TheVerdictIsTheBadge) {
-  WorldEvent verdict = Event(EventKind::kVerdict, 9, 0);
-  verdict.value = 1;
-  EXPECT_THAT(DrawRun(Crossing(), {}, {verdict}), HasSubstr(">passed<"));
-  verdict.value = 0;
-  verdict.text = "contacts_1";
-  const std::string svg = DrawRun(Crossing(), {}, {verdict});
+  const std::string passed = DrawRun(Crossing(), {}, {}, Headline{Verdict::kPassed, "all_held"});
+  EXPECT_THAT(passed, HasSubstr(">passed<"));
+  EXPECT_THAT(passed, Not(HasSubstr("all held"))) << "the description is of more use";
+  const std::string failed = DrawRun(Crossing(), {}, {}, Headline{Verdict::kFailed, "contacts_1"});
+  EXPECT_THAT(failed, HasSubstr(">failed<"));
+  EXPECT_THAT(failed, HasSubstr(">contacts 1<"));
+  const std::string none = DrawRun(Crossing(), {}, {}, Headline{Verdict::kNotRun, "could_not"});
+  EXPECT_THAT(none, HasSubstr(">not run<"));
+  EXPECT_THAT(none, HasSubstr(">could not<"));
+}
+
+TEST(Picture, TheVerdictIsTheReportsThoughTheWorldsEventSaysAnother) {
+  WorldEvent passed = Event(EventKind::kVerdict, 9, 0);
+  passed.value = 1;
+  passed.text = "expectations_met";
+  const Headline headline{Verdict::kFailed, "process_died"};
+  const std::string svg = DrawRun(Crossing(), {}, {passed}, headline);
   EXPECT_THAT(svg, HasSubstr(">failed<"));
-  EXPECT_THAT(svg, HasSubstr(">contacts 1<"));
+  EXPECT_THAT(svg, HasSubstr(">process died<"));
+  EXPECT_THAT(svg, Not(HasSubstr("passed")));
+  EXPECT_THAT(DrawRun(Crossing(), {}, {passed}), HasSubstr("no verdict"));
 }
 
 TEST(Picture, NorthIsUp) {

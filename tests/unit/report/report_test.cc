@@ -48,6 +48,15 @@ TEST(Report, JsonIsOneObjectOnOneLine) {
             R"("min_separation_m":0.625,"time_to_clear_s":18.25})");
 }
 
+TEST(Report, JsonHasCountsBeyondThirtyTwoBitsAsNumbers) {
+  Report report;
+  report.beacons_sent = 900'000'000'000'000;
+  report.deadline_missed = 5'000'000'000;
+  EXPECT_NE(ToJson(report).find(R"("beacons_sent":900000000000000,)"), std::string::npos)
+      << ToJson(report);
+  EXPECT_NE(ToJson(report).find(R"("deadline_missed":5000000000,)"), std::string::npos);
+}
+
 TEST(Report, JsonPrintsDefaultsAndLeavesOutWhatDoesNotExist) {
   EXPECT_EQ(ToJson(Report{}),
             R"({"scenario":"","verdict":"not_run","reason":"","contacts":0,"halted":[],)"

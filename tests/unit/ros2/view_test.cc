@@ -130,6 +130,16 @@ TEST(View, AVehicleThatIsSilentIsPaleThenItsMarkerIsDeleted) {
   EXPECT_TRUE(CollectAt(view, 3200).messages.empty());
 }
 
+// They were gone three seconds after each message: seven of ten seconds the fleet was not shown.
+TEST(View, AMarkerOfASlowRateStaysUntilTheNext) {
+  View slow = MakeView(0.1);
+  slow.Take(BeaconAt(VehicleId{3}, 1), At(0));
+  EXPECT_GE(Only<Markers>(CollectAt(slow, 0), "/giveway/markers").markers.at(0).lifetime_s, 20);
+  View usual = MakeView();
+  usual.Take(BeaconAt(VehicleId{3}, 1), At(0));
+  EXPECT_EQ(Only<Markers>(CollectAt(usual, 0), "/giveway/markers").markers.at(0).lifetime_s, 3);
+}
+
 TEST(View, TransformsThatDoNotChangeComeForANewVehicleAndEveryTenSeconds) {
   View view = MakeView();
   std::size_t messages = 0;

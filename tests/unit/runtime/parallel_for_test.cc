@@ -2,13 +2,20 @@
 #include "services/runtime/parallel_for.h"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <cstdlib>
+#include <fstream>
 #include <set>
 #include <thread>
 #include <vector>
+
+#include "services/types/sanitizers.h"
 
 namespace giveway {
 namespace {
@@ -25,6 +32,37 @@ std::vector<std::uint8_t> Visits(const ParallelFor& parallel_for, std::size_t co
 
 bool EachOnce(const std::vector<std::uint8_t>& visits) {
   return std::all_of(visits.begin(), visits.end(), [](std::uint8_t n) { return n == 1; });
+}
+
+// Leaves this process address space for the stacks of so many threads, and half of one more.
+void AllowThreads(rlim_t threads) {
+  pthread_attr_t attributes;
+  std::size_t stack_bytes = 0;
+  pthread_attr_init(&attributes);
+  pthread_attr_getstacksize(&attributes, &stack_bytes);
+  pthread_attr_destroy(&attributes);
+  rlim_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  const auto page_bytes = static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
+  const rlim_t most = pages * page_bytes + threads * stack_bytes + stack_bytes / 2;
+  const rlimit limit{most, most};
+  ::setrlimit(RLIMIT_AS, &limit);
+}
+
+// Regression: where the second of several threads could not be started, the world was aborted.
+TEST(ParallelPool, WorksWithAsManyThreadsAsCanBeStarted) {
+#if defined(GIVEWAY_ADDRESS_SANITIZER) || defined(GIVEWAY_THREAD_SANITIZER)
+  GTEST_SKIP() << "a sanitizer needs its own address space";
+#endif
+  for (const rlim_t threads : {0U, 1U, 3U}) {
+    EXPECT_EXIT(
+        {
+          AllowThreads(threads);
+          ParallelPool pool(8);
+          std::exit(EachOnce(Visits(pool.Function(), 1000)) ? 0 : 1);
+        },
+        ::testing::ExitedWithCode(0), "");
+  }
 }
 
 class ParallelPoolOf : public ::testing::TestWithParam<unsigned> {};

@@ -172,6 +172,19 @@ TEST(StopSignal, AFileThatMayNotGrowEndsNothing) {
   EXPECT_FALSE(stop.IsSet());
 }
 
+// Regression: started by a program that ignores SIGCHLD, a service could not wait for the process
+// that tests the profiles of an order.
+TEST(StopSignal, AParentThatIgnoredChildrenIsNotFollowed) {
+  const auto before = std::signal(SIGCHLD, SIG_IGN);
+  struct sigaction meanwhile {};
+  {
+    const StopSignal stop;
+    sigaction(SIGCHLD, nullptr, &meanwhile);
+  }
+  EXPECT_EQ(meanwhile.sa_handler, SIG_DFL);
+  EXPECT_EQ(std::signal(SIGCHLD, before), SIG_IGN) << "not as it was";
+}
+
 TEST(StopSignalDeathTest, TwoAtATimeAreOurBug) {
   const StopSignal stop;
   EXPECT_DEATH(StopSignal(), "check failed");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "services/config/text_file.h"
+#include "tests/support/no_descriptors.h"
 
 namespace giveway {
 namespace {
@@ -45,6 +46,34 @@ TEST(Restart, LeavesOnlyHeldTextsOpenToTheNextProcessImage) {
   EXPECT_EQ(fcntl(descriptor, F_GETFD) & FD_CLOEXEC, 0);
   EXPECT_EQ(fcntl(STDERR_FILENO, F_GETFD) & FD_CLOEXEC, 0);
   close(other);
+}
+
+// Regression: without a descriptor left a service that was to restart itself ended.
+TEST(Restart, LeavesTheFlagOfATextThatItCannotHoldAsItIs) {
+  const std::vector<std::string> before = OwnArguments();
+  NewFlags flags{{"--resume", ""}};
+  std::vector<std::string> arguments;
+  {
+    const test::NoDescriptors none;
+    EXPECT_FALSE(HoldTextFor("--qos", "mine.xml", "<dds/>", &flags));
+    EXPECT_FALSE(HoldTextFor("--resume", "resume", "word", &flags));
+    arguments = OwnArguments();
+  }
+  EXPECT_EQ(flags, (NewFlags{{"--resume", ""}}));
+  EXPECT_EQ(arguments, before) << "what it restarts with";
+  EXPECT_FALSE(arguments.empty());
+  EXPECT_TRUE(HoldTextFor("--resume", "resume", "word", &flags));
+  EXPECT_EQ(ReadBytes(flags["--resume"]), "word");
+}
+
+// Regression: the same, of one that has the profiles of an earlier restart and has read them.
+TEST(Restart, HoldsATextAgainThatItHasLetGo) {
+  const std::string held = HoldText("mine.xml", "<dds/>");
+  const int descriptor = std::stoi(held.substr(held.rfind('/') + 1));
+  LetGo(held);
+  EXPECT_EQ(fcntl(descriptor, F_GETFD) & FD_CLOEXEC, FD_CLOEXEC);
+  HoldAgain(held);
+  EXPECT_EQ(fcntl(descriptor, F_GETFD) & FD_CLOEXEC, 0);
 }
 
 TEST(Restart, NamesAFileByItsLastPart) { EXPECT_EQ(NameOf("/somewhere/mine.xml"), "mine.xml"); }

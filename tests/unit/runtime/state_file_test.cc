@@ -1,6 +1,9 @@
 #include "services/runtime/state_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <filesystem>
@@ -91,6 +94,37 @@ TEST_F(StateFile, ADeviceIsWrittenToAsItIs) {
   EXPECT_EQ(WriteOutputFile("/dev/null", "text"), "");
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
   EXPECT_NE(WriteOutputFile("/dev/full", "text").find("No space left"), std::string::npos);
+}
+
+// Regression: whatever was in /dev was taken for a device: a new file in /dev/shm was refused, and
+// an older one was appended to.
+TEST_F(StateFile, AFileInSharedMemoryIsWrittenAsAnyOther) {
+  const std::string file = "/dev/shm/giveway-output-test-" + std::to_string(::getpid());
+  EXPECT_EQ(WhyNotWritable(file), "");
+  EXPECT_FALSE(std::filesystem::exists(file));
+  EXPECT_EQ(WriteOutputFile(file, "an older and longer text"), "");
+  EXPECT_EQ(WriteOutputFile(file, "text"), "");
+  EXPECT_EQ(ReadStateFile(file), "text");
+  std::filesystem::remove(file);
+}
+
+// What a shell opened for a program: a file put in its place would not be the one that is open.
+TEST_F(StateFile, AFileThatIsReachedThroughADescriptorIsAppendedTo) {
+  std::ofstream(file_) << "before, ";
+  const int open_file = ::open(file_.c_str(), O_WRONLY | O_CLOEXEC);
+  const std::string name = "/dev/fd/" + std::to_string(open_file);
+  std::filesystem::create_symlink(name, folder_ / "link");
+  EXPECT_EQ(WhyNotWritable(name), "");
+  EXPECT_EQ(WriteOutputFile(name, "now, "), "");
+  EXPECT_EQ(WriteOutputFile("/proc/self/fd/" + std::to_string(open_file), "then, "), "");
+  EXPECT_EQ(WriteOutputFile(folder_ / "link", "and by a link"), "");
+  struct stat opened {};
+  struct stat named {};
+  ::fstat(open_file, &opened);
+  ::stat(file_.c_str(), &named);
+  EXPECT_EQ(opened.st_ino, named.st_ino);
+  ::close(open_file);
+  EXPECT_EQ(ReadStateFile(file_), "before, now, then, and by a link");
 }
 
 TEST(FaultReminder, SaysAFaultOnceThenOnceAMinuteAndThatItIsOver) {

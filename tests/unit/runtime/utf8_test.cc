@@ -41,6 +41,14 @@ TEST(IsTextOf, NulIsNoText) {
   EXPECT_TRUE(IsText("\xef\xbf\xbf"));
 }
 
+TEST(PrintableText, HasNothingThatATerminalObeys) {
+  EXPECT_EQ(Printable("\x1b[2J a\tb\nc\x7f"), "?[2J a?b?c?");
+  EXPECT_EQ(Printable("\xc3\xa9\xff"), "\xc3\xa9" + Replaced(1));
+  // Regression: U+0080 to U+009F, of which U+009B starts a control sequence, passed.
+  EXPECT_EQ(Printable("\xc2\x80\xc2\x9b\x32J\xc2\x9f\xc2\xa0\xc3\x80"), "??2J?\xc2\xa0\xc3\x80");
+  EXPECT_EQ(Printable("\x9b"), Replaced(1));
+}
+
 TEST(ShortenedText, IsCutBetweenCharacters) {
   EXPECT_EQ(Shortened("abc", 3), "abc");
   EXPECT_EQ(Shortened("abcd", 3), "abc\xe2\x80\xa6");

@@ -60,6 +60,20 @@ TEST(Obstacle, NeverMovesFasterThanItsSpeedRoundBends) {
   }
 }
 
+// Regression: a tick that turned in its middle ended where it started, and the cart stood for ever.
+TEST(Obstacle, TurnsInTheMiddleOfATick) {
+  Scenario scenario = ScenarioOf({});
+  scenario.obstacles = {Cart({3, 0}, {{4.25, 0}}, 0.4)};
+  World world = WorldOf(scenario);
+  int stood = 0;
+  for (int tick = 0; tick < 1000; ++tick) {
+    const Vec2 before = At(world);
+    Advance(&world, 1);
+    stood = At(world) == before ? stood + 1 : 0;
+    ASSERT_LE(stood, 1) << tick;
+  }
+}
+
 TEST(Obstacle, WithoutAWayStands) {
   Scenario scenario = ScenarioOf({});
   scenario.obstacles = {Cart({1, 2}, {}, 1), Cart({5, 2}, {{5, 2}}, 1)};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "services/types/fleet_limits.h"
 #include "tests/unit/sim_world/sim_scenario.h"
 
 namespace giveway::sim {
@@ -64,6 +65,25 @@ TEST(Roster, AFullFleetTakesNobodyElse) {
   roster.Admit(Ask(1, 0));
   roster.Admit(Ask(2, 0));
   EXPECT_EQ(roster.Admit(Ask(3, 0)).reason, "the fleet is full");
+}
+
+// Regression: vehicles that the scenario names counted while they were absent.
+TEST(Roster, AnOpenFleetIsFullOfVehiclesThatAreThereAndOfNoOthers) {
+  constexpr std::uint32_t kNamed = 20;
+  Scenario scenario = ScenarioOf({});
+  for (std::uint32_t id = 1; id <= kNamed; ++id) scenario.vehicles.push_back(VehicleAt(id, {}));
+  scenario.spawns = {VehicleAt(0, {})};
+  Roster roster(scenario, kEpoch);
+  for (std::uint32_t i = 1; i <= kMaxOpenFleet; ++i) {
+    ASSERT_TRUE(roster.Admit(Ask(i, kNamed + i)).accepted) << i;
+  }
+  const RosterEntry one_more = roster.Admit(Ask(5000, 5000));
+  EXPECT_FALSE(one_more.accepted);
+  EXPECT_TRUE(one_more.waiting);
+  EXPECT_EQ(one_more.reason, "the fleet is full");
+  EXPECT_EQ(roster.Admit(Ask(5001, 1)).reason, "the fleet is full");
+  roster.Free(VehicleId{kNamed + 1});
+  EXPECT_TRUE(roster.Admit(Ask(5001, 1)).accepted);
 }
 
 // A patrolling vehicle passes its start again: another one starting there would fill the loop.

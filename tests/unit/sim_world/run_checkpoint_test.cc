@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+
+#include "services/types/math/math.h"
 #include "sim_world/run/run.h"
 #include "tests/unit/sim_world/sim_scenario.h"
 
@@ -95,6 +99,117 @@ TEST(RunCheckpoint, ARestoredRunWaitsAndItsBodiesBrake) {
   EXPECT_DOUBLE_EQ(restored.TimeSeconds(), original.TimeSeconds());
   for (const Truth& truth : restored.Truths()) EXPECT_EQ(truth.forward_m_s, 0);
   EXPECT_EQ(restored.State(), RunState::kWaiting);
+}
+
+// Regression: it waited for the one that had left, and ended later as if that one had died.
+TEST(RunCheckpoint, AClosedRunThatIsRestoredEndsWhereAVehicleLeavesIt) {
+  const Scenario scenario = Busy();
+  sim::Run original(scenario, kEpoch);
+  for (const VehicleOptions& options : scenario.vehicles) original.Join(options.id);
+  original.Leave(kOne);
+  original.Join(kOne);
+  original.Advance({});
+  EXPECT_EQ(original.State(), RunState::kWaiting);  // it had not started: others may take its place
+  original.Start();
+  for (int tick = 0; tick < 30; ++tick) original.Advance(Script(original, kEpoch, tick));
+  sim::Run restored(scenario, kNext);
+  ASSERT_TRUE(restored.Restore(original.Save(), {}));
+  restored.Advance({});
+  restored.Leave(kOne);
+  restored.Advance({});
+  EXPECT_EQ(restored.State(), RunState::kEnded);
+  EXPECT_EQ(restored.EndReason(), "vehicle_left");
+  EXPECT_FALSE(restored.Figures().passed);
+}
+
+// Regression: it counted in the verdict, and there was no event of it.
+TEST(RunCheckpoint, AContactWhileARestoredRunBrakesIsAnEvent) {
+  const Scenario scenario = ScenarioOf({VehicleAt(1, {{0, 0}, 0}), VehicleAt(2, {{2, 0}, kPi})});
+  sim::Run original(scenario, kEpoch);
+  for (const VehicleOptions& options : scenario.vehicles) original.Join(options.id);
+  original.Start();
+  const auto gap_m = [&] {
+    return original.BodyOf(kTwo)->world_from_body.position_world.x -
+           original.BodyOf(kOne)->world_from_body.position_world.x - 0.5;
+  };
+  while (gap_m() > 0.1) {
+    original.Advance({{Drive(1, original.Now(), 6, 6), Drive(2, original.Now(), 6, 6)}});
+  }
+  ASSERT_EQ(original.Contacts(), 0U);
+  sim::Run restored(scenario, kEpoch);
+  ASSERT_TRUE(restored.Restore(original.Save(), {}));
+  std::vector<WorldEvent> contacts;
+  for (int tick = 0; tick < 20; ++tick) {
+    restored.Advance({});
+    std::ranges::copy_if(restored.Events(), std::back_inserter(contacts),
+                         [](const WorldEvent& event) { return event.kind == EventKind::kContact; });
+  }
+  EXPECT_EQ(restored.Contacts(), 1U);
+  ASSERT_EQ(contacts.size(), 1U);
+  EXPECT_EQ(contacts.front().vehicle, kOne);
+  EXPECT_EQ(contacts.front().other, kTwo);
+}
+
+// Regression: a world that restarted itself in its epoch counted its events from 1 again, and an
+// observer that had joined it again dropped as many as it had had before.
+TEST(RunCheckpoint, EventsAreNumberedOnThroughAnEpochAndFromOneInTheNext) {
+  const Scenario scenario = Busy();
+  sim::Run original(scenario, kEpoch);
+  for (const VehicleOptions& options : scenario.vehicles) original.Join(options.id);
+  original.Start();
+  for (int tick = 0; tick < 90; ++tick) original.Advance(Script(original, kEpoch, tick));
+  const RunCheckpoint taken = Through({.run = original.Save()}).run;
+  ASSERT_GT(taken.event_seq, 1U);
+  for (const WorldEpoch epoch : {kEpoch, kNext}) {
+    sim::Run restored(scenario, epoch);
+    ASSERT_TRUE(restored.Restore(taken, {}));
+    restored.End("compared");
+    restored.Advance({});
+    ASSERT_FALSE(restored.Events().empty());
+    EXPECT_EQ(restored.Events().front().seq, epoch == kEpoch ? taken.event_seq + 1 : 1);
+  }
+}
+
+// Regression: a vehicle whose process was stopped on purpose, and whose body was removed meanwhile,
+// was not waited for after a restart of the world, and a closed run ended without it.
+TEST(RunCheckpoint, ARemovedVehicleThatIsWaitedForIsStillWaitedForInARestoredRun) {
+  const auto alone_at = [](std::uint32_t id, Vec2 at_world) {
+    VehicleOptions options = VehicleAt(id, {at_world, 0});
+    options.goal = {.set = true, .at_world = at_world};
+    return options;
+  };
+  Scenario scenario = ScenarioOf({VehicleAt(1, {{0, 0}, 0}), alone_at(2, {0, 5})});
+  scenario.vehicles[0].goal = {.set = true, .at_world = {0.5, 0}};
+  scenario.duration_s = 1000;
+  scenario.remove_after_s = 1;
+  const faults::Schedule stopped = {
+      {.rule = "rule",
+       .at_s = 1,
+       .for_s = 60,
+       .kind = faults::Kind::kRestart,
+       .target = {.what = faults::Target::What::kVehicle, .vehicle = kTwo}}};
+  sim::Run original(scenario, kEpoch, OnThisThread, {stopped, 1});
+  for (const VehicleOptions& options : scenario.vehicles) original.Join(options.id);
+  original.Start();
+  while (original.BodyOf(kTwo) != nullptr) original.Advance({{Drive(1, original.Now(), 0, 0)}});
+  ASSERT_EQ(original.State(), RunState::kRunning);
+
+  sim::Run restored(scenario, kNext, OnThisThread, {stopped, 1});
+  ASSERT_TRUE(restored.Restore(Through({.run = original.Save()}).run, {}));
+  EXPECT_TRUE(restored.EveryoneJoined());
+  EXPECT_EQ(restored.BodyOf(kTwo), nullptr);
+  restored.Start();
+  EXPECT_EQ(restored.Hash(), original.Hash());
+  for (int tick = 0; tick < 100; ++tick) {
+    MotorCommand command = Drive(1, restored.Now(), 4, 4);
+    const Vec2 at_world = restored.BodyOf(kOne)->world_from_body.position_world;
+    if (at_world.x > 0.4) command.target = {};
+    command.epoch = kNext;
+    restored.Advance({{command}});
+  }
+  EXPECT_EQ(restored.State(), RunState::kRunning) << restored.EndReason();
+  restored.Join(scenario.vehicles[1]);
+  EXPECT_NE(restored.BodyOf(kTwo), nullptr);
 }
 
 TEST(RunCheckpoint, DoesNotFitAnotherScenario) {

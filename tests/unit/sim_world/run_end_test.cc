@@ -34,6 +34,26 @@ TEST(RunEnd, ARunInWhichNoVehicleLivesAnyMoreHasNotPassedThoughAllWasPlanned) {
   EXPECT_EQ(EndOf(scenario), "process_died");
 }
 
+// Regression: of the longest tick allowed, one was a second of silence, and the command that
+// answers it comes with the next: every closed run ended at once.
+TEST(RunEnd, AVehicleThatAnswersEveryTickIsNeverSilentHoweverLongATickIs) {
+  Scenario scenario = Two();
+  scenario.tick_period = Nanoseconds{1'000'000'000};
+  sim::Run run(scenario, kEpoch);
+  for (const VehicleOptions& options : scenario.vehicles) run.Join(options.id);
+  run.Start();
+  std::vector<MotorCommand> commands;
+  for (int i = 0; i < 20; ++i) {
+    run.Advance(commands);
+    EXPECT_EQ(run.State(), RunState::kRunning) << "tick " << i << ": " << run.EndReason();
+    commands = {Drive(1, run.Now(), 0, 0), Drive(2, run.Now(), 0, 0)};
+  }
+  for (int i = 0; i < 2; ++i) run.Advance({});
+  EXPECT_EQ(run.State(), RunState::kRunning);
+  for (int i = 0; i < 2; ++i) run.Advance({});
+  EXPECT_EQ(run.EndReason(), "process_died");
+}
+
 TEST(RunEnd, ALoopHasNoGoalToEndIn) {
   Scenario scenario = Two();
   Route& route = scenario.vehicles[1].route;

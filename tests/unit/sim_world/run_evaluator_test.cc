@@ -204,6 +204,19 @@ TEST_F(RunEvaluatorTest, ContactsBecomeEvents) {
   EXPECT_EQ(log_.Events()[0].kind, EventKind::kContact);
   EXPECT_EQ(log_.Events()[0].other, kTwo);
   EXPECT_EQ(log_.Events()[0].position_world, (Vec2{1, 2}));
+  EXPECT_EQ(log_.Events()[0].text, "");
+}
+
+TEST_F(RunEvaluatorTest, AContactWithNoVehicleSaysWithWhat) {
+  std::vector<Contact> contacts(3, {.vehicle = kTwo});
+  contacts[0].touched = Touched::kWall;
+  contacts[1].touched = Touched::kObstacle;
+  contacts[2].touched = Touched::kDoor;
+  evaluator_.Observe(1, {&body_, 1}, contacts, &log_);
+  ASSERT_EQ(log_.Events().size(), 3U);
+  EXPECT_EQ(log_.Events()[0].text, "wall");
+  EXPECT_EQ(log_.Events()[1].text, "obstacle");
+  EXPECT_EQ(log_.Events()[2].text, "door");
 }
 
 }  // namespace

@@ -12,11 +12,13 @@
 namespace {
 
 std::atomic<std::uint64_t> allocations{0};
+std::atomic<std::uint64_t> allocated_bytes{0};
 
 }  // namespace
 
 void* operator new(std::size_t size) {
   ++allocations;
+  allocated_bytes += size;
   if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
   throw std::bad_alloc();
 }
@@ -95,6 +97,22 @@ TEST(Allocation, ABusyWorldStopsAllocatingOnceItHasGrown) {
   advance(400);
   EXPECT_EQ(allocations - before, 0U);
   EXPECT_GT(world.Contacts(), contacts);
+}
+
+// Regression: vehicles 200 m apart had all pairs of obstacles searched that far, millions a tick.
+TEST(Allocation, ManyObstaclesMakeNoPairsWhereVehiclesAreFarApart) {
+  Scenario scenario = ScenarioOf({VehicleAt(1, {{-100, 0}, 0}), VehicleAt(2, {{100, 0}, 0})});
+  for (int i = 0; i < 2000; ++i) {
+    scenario.obstacles.push_back(
+        {.radius_m = 0.2, .start_world = {{i % 50 - 25.0, i / 50 - 20.0}, 0}});
+  }
+  World world = WorldOf(scenario);
+  world.Advance(true);
+  const std::uint64_t before = allocated_bytes;
+  DriveAll(&world, 3, 3, 5);
+  EXPECT_LT(allocated_bytes - before, 1'000'000U);
+  ASSERT_TRUE(world.Approaches().Closest());
+  EXPECT_NEAR(world.Approaches().Closest()->gap_m, 199.5, 0.1);
 }
 
 }  // namespace

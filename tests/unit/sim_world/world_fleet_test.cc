@@ -114,6 +114,41 @@ TEST(WorldFleet, APlaceIsFreeWhereNothingTouches) {
   EXPECT_TRUE(world.IsFree(VehicleAt(1, {})));  // its own place
 }
 
+// Regression: a vehicle appeared right in front of another that drove, which hit it.
+TEST(WorldFleet, APlaceIsNotFreeBeforeAVehicleThatCannotStopForIt) {
+  World world = WorldOf(ScenarioOf({VehicleAt(1, {})}));
+  DriveAll(&world, 4, 4, 60);
+  const double front_m = world.Bodies()[0].world_from_body.position_world.x + 0.25;
+  const auto is_free = [&](Vec2 ahead) {
+    return world.IsFree(VehicleAt(2, {{front_m + ahead.x, ahead.y}, 0}));
+  };
+  // 0.39 m/s: the watchdog's three ticks, and 0.39^2 / (2 * 0.6) = 0.13 m.
+  EXPECT_FALSE(is_free({0.25 + 0.06 + 0.13, 0}));
+  EXPECT_TRUE(is_free({0.25 + 0.3, 0}));
+  EXPECT_TRUE(is_free({-0.76, 0})) << "behind it";
+  EXPECT_TRUE(is_free({0, 0.51})) << "next to it";
+  DriveAll(&world, 0, 0, 30);
+  EXPECT_TRUE(world.IsFree(
+      VehicleAt(2, {{world.Bodies()[0].world_from_body.position_world.x + 0.51, 0}, 0})));
+}
+
+TEST(WorldFleet, APlaceIsNotFreeBeforeACartUnlessItStandsWithTheRun) {
+  Scenario scenario = ScenarioOf({VehicleAt(1, {{0, 5}, 0})});
+  scenario.obstacles = {{.radius_m = 0.25,
+                         .start_world = {{0, 0}, 0},
+                         .waypoints_world = {{4, 0}},
+                         .speed_m_s = 0.5}};
+  World world = WorldOf(scenario);
+  world.Advance(false);
+  const VehicleOptions before_it = VehicleAt(2, {{1, 0}, 0});
+  EXPECT_TRUE(world.IsFree(before_it)) << "no run ever starts where a cart keeps a vehicle out";
+  world.Advance(true);
+  EXPECT_FALSE(world.IsFree(before_it));
+  EXPECT_TRUE(world.IsFree(VehicleAt(2, {{1, 0.6}, 0})));
+  for (int i = 0; i < 70; ++i) world.Advance(true);
+  EXPECT_TRUE(world.IsFree(before_it)) << "it has passed";
+}
+
 Scenario Busy() {
   Scenario scenario = ScenarioOf({VehicleAt(1, {}), BoxVehicle(2, {{1, 0.3}, 2}, {0.3, 0.2})});
   scenario.vehicles[0].profile.wheel_slip = 0.1;

@@ -11,8 +11,8 @@ namespace {
 constexpr VehicleId kOwn{1};
 constexpr PriorityKey kOwnKey{.speed_bucket = 6, .vehicle = kOwn};
 
-// The acting priority of a vehicle that has received these beacons.
-PriorityKey After(const std::vector<Beacon>& beacons) {
+// The acting priority of a vehicle that has received these beacons, so many ticks later.
+PriorityKey After(const std::vector<Beacon>& beacons, std::uint32_t ticks = 0) {
   PeerTable peers;
   BeaconCounters counters;
   TrustCounters trust;
@@ -21,7 +21,9 @@ PriorityKey After(const std::vector<Beacon>& beacons) {
                test::DefaultOptions(), &counters, &trust);
   }
   EXPECT_EQ(counters.taken, counters.accepted + counters.not_heard);
-  return ActingOrder(kOwnKey, peers, kOwn);
+  const VehicleOptions options = test::DefaultOptions();
+  const Moment moment{.now = ticks * options.tick_period, .tick = Tick{9 + ticks}};
+  return ActingOrder(kOwnKey, peers, moment, options);
 }
 
 // Faster than this vehicle, and blocked by it.
@@ -49,6 +51,19 @@ TEST(ActingOrder, IsTheOwnAgainOnceTheOneThatLentItIsGone) {
   Beacon far = HeldUp(2);
   far.world_from_body.position_world.x = -2 * test::DefaultOptions().emission_radius_m;
   EXPECT_EQ(After({HeldUp(1), far}), kOwnKey);
+}
+
+// By the key of a vehicle that had died behind it, one acted for half a minute.
+TEST(ActingOrder, IsTheOwnAgainOnceTheOneThatLentItHasBeenSilentForLong) {
+  EXPECT_EQ(After({HeldUp(8)}, 20), HeldUp(8).order);
+  EXPECT_EQ(After({HeldUp(8)}, 21), kOwnKey);
+}
+
+TEST(ActingOrder, IsTheOwnWhereTheOneHeldUpIsDoubted) {
+  Beacon jumped = HeldUp(2);
+  jumped.world_from_body.position_world.x = -3;
+  EXPECT_EQ(After({HeldUp(1), jumped}), kOwnKey);
+  EXPECT_EQ(After({HeldUp(1), HeldUp(2)}), HeldUp(2).order);
 }
 
 // Regression: one that waited before a crossing by the key of the one behind it lost that key every

@@ -23,6 +23,10 @@ class PeerTableTest : public testing::Test {
   void Hear(std::uint32_t id, std::uint32_t seq, milliseconds at) {
     Take(Received(BeaconOf(id, seq, {}), at));
   }
+  // So near the emission radius that it may be beyond it a tick later.
+  void HearAtTheRim(std::uint32_t id, std::uint32_t seq, milliseconds at) {
+    Take(Received(BeaconOf(id, seq, {.position_world = {4.98, 0}}), at));
+  }
   bool Fresh(std::uint32_t id, milliseconds now) {
     const Peer* peer = table_->Find(VehicleId{id});
     return peer != nullptr && IsFresh(*peer, now, self_.tick, options_);
@@ -146,6 +150,31 @@ TEST_F(PeerTableTest, EveryRefusalHasItsCounterAndNamesWhoItWas) {
   EXPECT_EQ(counters_.taken, counters_.accepted + counters_.not_heard + counters_.Rejected());
 }
 
+TEST_F(PeerTableTest, ABeaconOfATickFarAheadIsRefused) {
+  Hear(2, 100 + kMostTicksAhead, milliseconds(0));
+  EXPECT_EQ(counters_.accepted, 1U);
+  Hear(3, 101 + kMostTicksAhead, milliseconds(0));
+  Hear(4, 0xffff'ffff, milliseconds(0));
+  EXPECT_EQ(counters_.rejected_out_of_range, 2U);
+  EXPECT_EQ(table_->Peers().size(), 1U);
+  self_.tick = kNoTick;  // no scan yet: there is nothing to compare with
+  Hear(3, 500, milliseconds(0));
+  EXPECT_EQ(counters_.accepted, 2U);
+}
+
+// In lockstep a beacon counts as received at its tick: one of a second writer from years ahead had
+// the owner of the id refused for as long.
+TEST_F(PeerTableTest, ARivalFromYearsAheadTakesNoIdAway) {
+  Hear(2, 98, milliseconds(4900));
+  ReceivedBeacon rival = Received(BeaconOf(2, 0xffff'ffff, {}), std::chrono::hours(59'000));
+  rival.writer = 77;
+  Take(rival);
+  EXPECT_EQ(counters_.rejected_duplicate_id, 0U);
+  Hear(2, 99, milliseconds(4950));
+  EXPECT_EQ(counters_.accepted, 2U);
+  EXPECT_TRUE(Fresh(2, milliseconds(4950)));
+}
+
 TEST_F(PeerTableTest, AReplayedBeaconIsRefused) {
   Hear(2, 98, milliseconds(0));
   Hear(2, 98, milliseconds(10));
@@ -161,8 +190,8 @@ TEST_F(PeerTableTest, GapsInTheSequenceAreCountedAsLost) {
 }
 
 TEST_F(PeerTableTest, BeyondTheEmissionRadiusIsNotHeardAndNoLoss) {
-  Hear(2, 97, milliseconds(0));
-  Take(Received(BeaconOf(2, 98, {.position_world = {5.1, 0}}), milliseconds(50)));
+  HearAtTheRim(2, 97, milliseconds(0));
+  Take(Received(BeaconOf(2, 98, {.position_world = {5.02, 0}}), milliseconds(50)));
   EXPECT_EQ(counters_.not_heard, 1U);
   EXPECT_FALSE(Fresh(2, milliseconds(50)));
   EXPECT_FALSE(IsLost(*table_->Find(VehicleId{2}), Fresh(2, milliseconds(900))));
@@ -173,8 +202,8 @@ TEST_F(PeerTableTest, BeyondTheEmissionRadiusIsNotHeardAndNoLoss) {
 
 // During the tick that its first beacon waits, what is known of it is as old as when it left.
 TEST_F(PeerTableTest, OneThatComesBackIntoReachIsNotLostUntilItsBeaconCounts) {
-  Hear(2, 97, milliseconds(0));
-  Take(Received(BeaconOf(2, 98, {.position_world = {5.1, 0}}), milliseconds(50)));
+  HearAtTheRim(2, 97, milliseconds(0));
+  Take(Received(BeaconOf(2, 98, {.position_world = {5.02, 0}}), milliseconds(50)));
   self_.tick = Tick{120};
   const milliseconds now(1000);
   Hear(2, 120, now);  // of this tick: it waits
@@ -187,13 +216,37 @@ TEST_F(PeerTableTest, OneThatComesBackIntoReachIsNotLostUntilItsBeaconCounts) {
 
 // The waiting one is older than the one from out of range.
 TEST_F(PeerTableTest, OneThatLeavesWhileABeaconWaitsIsNoLossEither) {
-  Hear(2, 99, milliseconds(0));
-  Hear(2, 100, milliseconds(50));
-  Take(Received(BeaconOf(2, 101, {.position_world = {5.1, 0}}), milliseconds(50)));
+  HearAtTheRim(2, 99, milliseconds(0));
+  HearAtTheRim(2, 100, milliseconds(50));
+  Take(Received(BeaconOf(2, 101, {.position_world = {5.02, 0}}), milliseconds(50)));
   self_.tick = Tick{130};
   table_->Advance(milliseconds(1500), self_.tick);
   EXPECT_TRUE(IsGone(*table_->Find(VehicleId{2})));
   EXPECT_FALSE(IsLost(*table_->Find(VehicleId{2}), Fresh(2, milliseconds(1500))));
+}
+
+// By one beacon from far off it dropped the claim of where it was, and nothing was held against it.
+TEST_F(PeerTableTest, OneThatJumpsOutOfReachIsDoubtedAndLost) {
+  const auto jump = [this](std::uint32_t tick, milliseconds at) {
+    self_.tick = Tick{tick + 1};
+    Take(Received(BeaconOf(2, tick, {.position_world = {50, 0}}), at));
+    return table_->Find(VehicleId{2});
+  };
+  Hear(2, 98, milliseconds(0));
+  const Peer* peer = jump(99, milliseconds(50));
+  EXPECT_EQ(trust_.jumps, 1U);
+  EXPECT_EQ(trust_.Total(), 1U);
+  EXPECT_TRUE(IsDoubted(peer->trust, milliseconds(50)));
+  EXPECT_EQ(peer->beacon.tick, Tick{98});
+  EXPECT_EQ(peer->last_seq, 99U);
+  for (std::uint32_t tick = 100; tick < 138; ++tick) {
+    peer = jump(tick, milliseconds(50 * (tick - 98)));
+    EXPECT_FALSE(IsGone(*peer)) << tick;
+  }
+  EXPECT_TRUE(IsLost(*peer, Fresh(2, milliseconds(1950))));
+  EXPECT_EQ(trust_.jumps, 1U) << "there is no second one";
+  peer = jump(150, milliseconds(2600));
+  EXPECT_TRUE(IsGone(*peer)) << "its claim has lapsed by now";
 }
 
 // A radio that holds a beacon back says nothing new by it, wherever it is from.
@@ -223,6 +276,21 @@ TEST_F(PeerTableTest, BeforeTheWorldIsHeardNobodyIsHeardAndNobodyIsRefused) {
   Hear(3, 99, milliseconds(0));
   EXPECT_EQ(counters_.not_heard, 2U);
   EXPECT_EQ(counters_.Rejected(), 0U);
+}
+
+// One that had left and was placed again was taken for lost until its first scan.
+TEST_F(PeerTableTest, ABeaconThatAnswersNoScanChangesNothing) {
+  Beacon good_bye = BeaconOf(2, 98, {});
+  good_bye.mode = Mode::kLeaving;
+  Take(Received(good_bye, milliseconds(0)));
+  ReceivedBeacon placed = Received(BeaconOf(2, 0, {}), milliseconds(50));
+  placed.beacon.seq = 1;
+  placed.beacon.boot_epoch = 5;
+  placed.writer = 77;
+  Take(placed);
+  EXPECT_EQ(counters_.not_heard, 1U);
+  EXPECT_TRUE(IsGone(*table_->Find(VehicleId{2})));
+  EXPECT_FALSE(IsLost(*table_->Find(VehicleId{2}), Fresh(2, milliseconds(50))));
 }
 
 TEST_F(PeerTableTest, TwoWritersForOneIdAreBothDistrustedAndNamed) {

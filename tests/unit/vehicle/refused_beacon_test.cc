@@ -94,6 +94,12 @@ TEST(RefusedBeacon, OfAStepIsExplained) {
   EXPECT_EQ(Describe(Explain(received, BeaconRefusal::kOutOfRange, *state)),
             "refuses a beacon of vehicle 5: cruise_m_s is 3, must be 0 to 2.5 "
             "(rejected_out_of_range)");
+  beacon = test::BeaconOf(5, 1000, {});
+  state->world.tick = Tick{900};
+  const Refusal ahead =
+      Explain(test::Received(beacon, SteadyTime{0}), BeaconRefusal::kOutOfRange, *state);
+  EXPECT_EQ(ahead.why, "tick is 1000, must be 0 to 920");
+  EXPECT_TRUE(ahead.passing);
   beacon.world_epoch = WorldEpoch{77};
   const Refusal elsewhere =
       Explain(test::Received(beacon, SteadyTime{0}), BeaconRefusal::kWrongEpoch, *state);

@@ -221,15 +221,46 @@ constexpr SteadyTime At(int milliseconds) { return std::chrono::milliseconds(mil
 const Approach kAhead{
     .path = {{0, 0}, {1, 0}}, .distance_to_goal_m = 100, .body_radius_m = 0.25, .stopping_m = 0.1};
 
+constexpr Vec2 kHere{0, 0};
+
 TEST(SignalTable, HoldsThirtyTwoHeadsAndLetsASilentOneGo) {
   SignalTable table;
   for (std::uint32_t id = 1; id <= kMaxSignals; ++id) {
-    EXPECT_TRUE(table.Take(Head(SignalPhase::kRed, 40.0 - id, 0, id), kEpoch, At(0)));
+    EXPECT_TRUE(table.Take(Head(SignalPhase::kRed, 40.0 - id, 0, id), kEpoch, At(0), kHere));
   }
   EXPECT_EQ(table.MustStopAt(kAhead, At(0))->signal, SignalId{32});  // the nearest
-  EXPECT_FALSE(table.Take(Head(SignalPhase::kRed, 1, 0, 99), kEpoch, At(300)));
-  EXPECT_TRUE(table.Take(Head(SignalPhase::kRed, 1, 0, 99), kEpoch, At(301)));
+  EXPECT_FALSE(table.Take(Head(SignalPhase::kRed, 50, 0, 99), kEpoch, At(300), kHere));
+  EXPECT_TRUE(table.Take(Head(SignalPhase::kRed, 50, 0, 99), kEpoch, At(301), kHere));
   EXPECT_EQ(table.MustStopAt(kAhead, At(301))->signal, SignalId{99});
+}
+
+TEST(SignalTable, KeepsTheNearestHeadsOfMoreThanItHolds) {
+  SignalTable table;
+  const auto take = [&](double x_m, std::uint32_t id, Vec2 own_world) {
+    return table.Take(Head(SignalPhase::kRed, x_m, 0, id), kEpoch, At(0), own_world);
+  };
+  for (std::uint32_t id = 1; id <= kMaxSignals; ++id) EXPECT_TRUE(take(50.0 + id, id, kHere));
+  EXPECT_FALSE(take(90, 98, kHere));
+  EXPECT_TRUE(take(2, 99, kHere));
+  EXPECT_EQ(table.MustStopAt(kAhead, At(0))->signal, SignalId{99});
+  EXPECT_EQ(table.Heard(), kMaxSignals);
+  EXPECT_FALSE(take(82, 32, kHere)) << "it was the farthest, and had to go";
+  EXPECT_TRUE(take(82, 32, {80, 0})) << "from there the one at 2 m is the farthest";
+  EXPECT_FALSE(take(2, 99, {80, 0}));
+}
+
+// By the line, not by one of its ends: the middle of a long one may be the nearest of all.
+TEST(SignalTable, KeepsALongLineWhoseEndsAreFarOff) {
+  SignalTable table;
+  SignalState wide = Head(SignalPhase::kRed, 2, 0, 99);
+  wide.line_from_world.y = 80;
+  wide.line_to_world.y = -80;
+  EXPECT_TRUE(table.Take(wide, kEpoch, At(0), kHere));
+  for (std::uint32_t id = 1; id <= kMaxSignals; ++id) {
+    const SignalState head = Head(SignalPhase::kRed, 10.0 + id, 0, id);
+    EXPECT_EQ(table.Take(head, kEpoch, At(0), kHere), id < kMaxSignals) << id;
+  }
+  EXPECT_EQ(table.MustStopAt(kAhead, At(0))->signal, SignalId{99});
 }
 
 TEST(SignalTable, OldNewsAndOtherWorldsAreRefused) {
@@ -238,13 +269,13 @@ TEST(SignalTable, OldNewsAndOtherWorldsAreRefused) {
   red.tick = Tick{10};
   SignalState green = Head(SignalPhase::kGreen, 2);
   green.tick = Tick{9};
-  EXPECT_TRUE(table.Take(red, kEpoch, At(0)));
-  EXPECT_FALSE(table.Take(green, kEpoch, At(10)));
+  EXPECT_TRUE(table.Take(red, kEpoch, At(0), kHere));
+  EXPECT_FALSE(table.Take(green, kEpoch, At(10), kHere));
   EXPECT_TRUE(table.MustStopAt(kAhead, At(10)).has_value());
   green.tick = Tick{11};
-  EXPECT_FALSE(table.Take(green, WorldEpoch{8}, At(20)));
-  EXPECT_FALSE(table.Take(green, kNoEpoch, At(20)));
-  EXPECT_TRUE(table.Take(green, kEpoch, At(20)));
+  EXPECT_FALSE(table.Take(green, WorldEpoch{8}, At(20), kHere));
+  EXPECT_FALSE(table.Take(green, kNoEpoch, At(20), kHere));
+  EXPECT_TRUE(table.Take(green, kEpoch, At(20), kHere));
   EXPECT_FALSE(table.MustStopAt(kAhead, At(20)).has_value());
 }
 

@@ -42,6 +42,11 @@ class SilentPeer : public Trust {
     options.emission_radius_m = radius_m;
     Begin(options);
   }
+  void BeginWithBodiesThatStay(Nanoseconds time) {
+    VehicleOptions options = test::DefaultOptions();
+    options.silent_body_stays = time;
+    Begin(options);
+  }
   void BeginWithNoise() {
     VehicleOptions options = test::DefaultOptions();
     options.sonar_noise = 0.01;
@@ -219,6 +224,27 @@ TEST_F(SilentPeer, IsNotWhereOneThatWasTakenAwayVanishes) {
   HearFor(10, HearingAhead(2), Ahead(0, -2));
   StepOn(HearingAhead(2), 10);
   StepOn(ClearScan(0), 20);
+  EXPECT_FALSE(Halts());
+}
+
+// Where a world takes silent bodies away at once, each survivor halted until it forgot the peer.
+TEST_F(SilentPeer, IsNotWhereOneVanishesThatAWorldTakesAwayAtOnce) {
+  for (const int seconds : {1, 2, 3}) {
+    BeginWithBodiesThatStay(std::chrono::seconds(seconds));
+    FallSilent(2, 20 * seconds - 2);
+    StepOn(ClearScan(0), 100);
+    EXPECT_FALSE(Halts()) << seconds;
+  }
+}
+
+TEST_F(SilentPeer, IsWhereOneVanishesThatAWorldLeavesThere) {
+  BeginWithBodiesThatStay(std::chrono::seconds(20));
+  FallSilent(2, 100);
+  StepOn(ClearScan(0), 10);
+  EXPECT_TRUE(Halts()) << "nothing has taken it away yet";
+  BeginWithBodiesThatStay(std::chrono::seconds(20));
+  FallSilent(2, 400);
+  StepOn(ClearScan(0), 10);
   EXPECT_FALSE(Halts());
 }
 

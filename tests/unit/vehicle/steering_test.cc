@@ -216,6 +216,21 @@ TEST(Steering, StraightensOnlyWithWeakBrakesAndWhereNoPeerCountsOnThem) {
   EXPECT_LT(TargetInATurn(PioneerP3dx(), std::nullopt).left_rad_s, 2);
 }
 
+// From one_lane 1446 of mixed fleets: the turn asked for was sharper than the drive makes, which
+// slowed the faster rim instead of the other, tick by tick, and it turned until it stood.
+TEST(Steering, NoTurnIsLeftBySharperOneThanTheDriveMakes) {
+  RobotModel slow = PioneerP3dx();
+  slow.acceleration_m_s2 = 0.53;
+  slow.deceleration_m_s2 = 0.22;
+  slow.max_turn_rad_s = 0.82;
+  const WheelSpeeds now = WheelsFromTwist(slow.drive, {0.72, -0.095});
+  const Pace pace = {.limit_m_s = 0.2, .may_turn = true, .tick_s = 0.05, .straightens = true};
+  const Twist asked =
+      TwistFromWheels(slow.drive, Drive(slow, TwistFromWheels(slow.drive, now), {}, pace));
+  EXPECT_LE(asked.turn_rad_s, slow.max_turn_rad_s + 1e-9);
+  EXPECT_GT(asked.turn_rad_s, 0);
+}
+
 // From door 1411 of mixed fleets, a robot whose encoders are 1.7 % off each tick, and whose brakes
 // take less than that off its speed: it took one rim and then the other for the slower one, which
 // kept its speed, braked by half as much as it can, and drove into the end of a wall.

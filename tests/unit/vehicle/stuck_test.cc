@@ -66,6 +66,21 @@ TEST(Caught, ItTriesNoHeadingThatLeadsIntoAClaim) {
   for (const double heading_rad : tried) EXPECT_LT(Sin(heading_rad), 0.7);
 }
 
+// Ultrasonics that are late for 20 s: a vehicle on an empty floor turned to and fro for minutes
+// afterwards, from one heading to the next.
+TEST(Caught, ItIsNotWhileItHaltsForStaleRanges) {
+  test::BrainBench bench(test::DefaultOptions());
+  RangeScan scan = test::ClearScan(0);
+  test::SetEcho(&scan, 3, 4);
+  Outputs out;
+  for (int i = 0; i < 400; ++i) out = bench.StepAsFired(scan);
+  ASSERT_EQ(out.command.decision.rule, Rule::kRangesStale);
+  EXPECT_LT(bench.Brain().State().progress.no_progress_ticks, 10U);
+  out = bench.Step(test::ClearScan(0));
+  EXPECT_EQ(out.command.decision.rule, Rule::kCruise);
+  EXPECT_EQ(bench.Brain().State().progress.away_tick, kNoTick);
+}
+
 TEST(Caught, AQueueIsWaitedIn) {
   const auto leader = [](std::uint32_t tick) { return std::vector{LeaderAhead(tick)}; };
   EXPECT_TRUE(HeadingsTried(4000, leader).empty());

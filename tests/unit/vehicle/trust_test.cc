@@ -113,6 +113,21 @@ TEST_F(SaysItStands, ComesNearerForAMomentAndIsNotHeldToIt) {
   EXPECT_EQ(Counted().Total(), 0U);
 }
 
+// Which had every peer doubted in every tick, and two vehicles halted for each other for ever.
+TEST_F(SaysItStands, AndStandsInTicksLongerThanItMayCloseIn) {
+  VehicleOptions options = test::DefaultOptions();
+  options.tick_period = std::chrono::milliseconds(410);
+  options.beacon_age_limit = std::chrono::seconds(2);
+  options.ranges_age_limit = 3 * options.tick_period;
+  Begin(options);
+  HearFor(20, HearingAhead(2.5), Ahead(0, 2.5));
+  EXPECT_EQ(Counted().Total(), 0U);
+  EXPECT_FALSE(Doubted());
+  ComeNearer(0.1, 10, true);
+  EXPECT_EQ(Counted().halted_but_closing, 1U);
+  EXPECT_TRUE(Doubted());
+}
+
 TEST_F(SaysItStands, OrSaysThatItDrives) {
   HearFor(30, HearingAhead(2.5), Ahead(0, 2.5));
   for (int i = 1; i < 30; ++i) {
@@ -143,6 +158,20 @@ TEST_F(SaysItStands, AndAnotherMayBeWhoComesNearer) {
     other.wheels = {0.3 / 0.0975, 0.3 / 0.0975};
     const std::vector<Beacon> both = {Ahead(tick, 2.5), other};
     bench_.Step(HearingAhead(away_m), tick == 0 ? std::vector<Beacon>{} : both);
+  }
+  EXPECT_EQ(Counted().Total(), 0U);
+}
+
+// A vehicle that drove between the two, whose beacon was too far off to explain its echo, had an
+// honest peer doubted: the other cone still heard that one stand.
+TEST_F(SaysItStands, AndOneConeOfTwoStillHearsItStand) {
+  Beacon unsure = Ahead(0, 2.5);
+  unsure.covariance = {.xx_m2 = 0.02, .yy_m2 = 0.02};
+  HearFor(30, HearingAhead(2.5), unsure);
+  for (int i = 1; i <= 16; ++i) {
+    RangeScan scan = HearingAhead(2.5);
+    test::SetEcho(&scan, 3, HearingAhead(2.5 - 0.015 * i).readings[3].range_m);
+    Hear(scan, unsure);
   }
   EXPECT_EQ(Counted().Total(), 0U);
 }

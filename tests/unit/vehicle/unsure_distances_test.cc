@@ -80,6 +80,23 @@ TEST(Claims, AreKeptFromByTwiceWhatIsUnsureAlongTheWorstAxis) {
   EXPECT_NEAR(FreeWith(kAcross), FreeWith({}) - 2 * 0.5, 1e-9);
 }
 
+// From shared_goal 1000 of mixed fleets, whose poses were off by three deviations: echoes showed a
+// peer 0.17 m nearer than its beacon, were taken for its own and so for no obstacle, and its claim
+// was kept from as far as before.
+TEST(Claims, AreKeptFromByWhatItsEchoesShowThePeerToBeNearer) {
+  constexpr PoseCovariance kUnsure{.xx_m2 = 0.01, .yy_m2 = 0.01};
+  const auto free_m = [&](double nearer_m) {
+    test::Onlooker onlooker;
+    Peer peer = test::PeerAt({{1.5, 0}, kPi}, kUnsure);
+    const std::size_t ahead = 3;
+    const Vec2 mount = test::DefaultOptions().profile.sonar[ahead].position_body;
+    onlooker.Hear(ahead, Norm(Vec2{1.5, 0} - mount) - peer.beacon.body_radius_m - nearer_m);
+    return onlooker.RelatePeer(&peer).free_m;
+  };
+  EXPECT_EQ(free_m(0), free_m(0.19)) << "two deviations are kept anyway";
+  EXPECT_NEAR(free_m(0.25), free_m(0) - 0.05, 0.005);
+}
+
 // A metre a second along a heading that is unsure by 0.1 rad, for the one tick since its beacon.
 TEST(Peers, AreLessSureTheFartherTheyWereCarriedOn) {
   const WheelSpeeds one_m_s = {1 / 0.0975, 1 / 0.0975};

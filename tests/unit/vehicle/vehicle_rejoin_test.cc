@@ -37,11 +37,13 @@ TEST(VehicleInARestartedWorld, IsToldWhereItStandsAndDrivesOnFromThere) {
     return brain.Step(inputs);
   };
   Outputs out = step({.roster = Placed(kNext, kThere)});
-  EXPECT_EQ(out.beacon.world_epoch, kNext);
+  EXPECT_EQ(out.beacon.world_epoch, kNoEpoch);  // it has sensed nothing there yet
+  EXPECT_EQ(out.command.epoch, kNext);
   EXPECT_EQ(out.beacon.world_from_body, kThere);
-  EXPECT_EQ(out.command.target, WheelSpeeds{});  // it has sensed nothing there yet
+  EXPECT_EQ(out.command.target, WheelSpeeds{});
   EXPECT_EQ(out.command.decision.mode, Mode::kHalt);
   out = step({.scan = ScanOf(kNext, 90)});
+  EXPECT_EQ(out.beacon.world_epoch, kNext);
   EXPECT_EQ(out.beacon.world_from_body, kThere);
   EXPECT_EQ(out.command.decision.rule, Rule::kCruise);
   // The old world's last samples, and the entry once more, change nothing.
@@ -187,6 +189,27 @@ TEST(VehicleThatRestarts, KeepsWhatItHasWaitedAndItsPlaceInTheOrder) {
   handover.task = {5, 5001};  // neither has the route so many, nor the world lasted so long
   ASSERT_TRUE(brain.TakeOver(handover));
   EXPECT_EQ(brain.HandOver()->task, TaskProgress{});
+}
+
+// It had waited for longer than 0 ticks, which its beacon of tick 0 could not have.
+TEST(VehicleThatRestarts, IsRefusedByNoneForWhatItHasWaited) {
+  const Rounds rounds;
+  Vehicle brain(rounds.options, 42);
+  const auto limit =
+      static_cast<std::uint32_t>(rounds.options.ageing_limit / rounds.options.tick_period);
+  ASSERT_TRUE(
+      brain.TakeOver({.epoch = Rounds::kWorld, .tick = Tick{5000}, .task = {2, limit + 7}}));
+  const Beacon beacon = brain.Step({}).beacon;
+  EXPECT_EQ(beacon.tick, kNoTick);
+  EXPECT_EQ(beacon.world_epoch, kNoEpoch);
+  EXPECT_EQ(beacon.order.waited_ticks, limit);
+  PeerTable peers;
+  BeaconCounters counters;
+  TrustCounters trust;
+  peers.Take(test::Received(beacon, {}), {VehicleId{9}, Rounds::kWorld, Tick{5002}, {}},
+             rounds.options, &counters, &trust);
+  EXPECT_EQ(counters.not_heard, 1U);
+  EXPECT_EQ(counters.Rejected(), 0U);
 }
 
 TEST(VehicleThatRestarts, TakesOverNothingThatIsNotSound) {

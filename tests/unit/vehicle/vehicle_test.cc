@@ -209,6 +209,43 @@ TEST(Vehicle, TheFrontOfABuildingMetAtTheRimOfASideConeIsNoMover) {
   }
 }
 
+// From corridor 2069 of mixed fleets: on the spot the rim of a cone leapt along a wall, which was
+// taken for something that moves, and the vehicle stood for two and a half seconds, a hundred
+// times.
+TEST(Vehicle, AnEchoThatLeapsWhileItTurnsOnTheSpotIsNoMover) {
+  BrainBench bench(test::DefaultOptions());
+  for (int i = 0; i < 16; ++i) {
+    RangeScan scan = ClearScan(0);
+    scan.wheels = {-0.2, 0.2};  // 0.12 rad/s
+    test::SetEcho(&scan, 0, 0.95 - 0.04 * i);
+    EXPECT_NE(bench.Step(scan).command.decision.rule, Rule::kUnidentifiedMotion) << i;
+  }
+}
+
+// Nor is it patient with what no beacon explains: that may never go.
+TEST(Vehicle, SeeksAnotherHeadingBeforeAMoverThatStays) {
+  BrainBench bench(test::DefaultOptions());
+  double range_m = 0.95;
+  for (int i = 0; i < 400; ++i) {
+    RangeScan scan = ClearScan(0);
+    range_m = i % 40 < 8 ? 0.95 - 0.05 * (i % 40) : 0.95;
+    test::SetEcho(&scan, 0, range_m);
+    bench.Step(scan);
+  }
+  EXPECT_GT(bench.Brain().State().progress.no_progress_ticks, 200U);
+}
+
+// Its patience had run out before the run started, and it set off at an angle.
+TEST(Vehicle, LosesNoPatienceBeforeTheRunStarts) {
+  BrainBench bench(test::DefaultOptions());
+  for (int i = 0; i < 400; ++i) {
+    RangeScan scan = ClearScan(0);
+    scan.run_state = RunState::kWaiting;
+    EXPECT_EQ(bench.Step(scan).command.decision.rule, Rule::kNotRunning);
+  }
+  EXPECT_LE(bench.Brain().State().progress.no_progress_ticks, 1U);
+}
+
 TEST(Vehicle, WhatComesFromTheSideFasterThanThePathExplainsIsAMover) {
   BrainBench bench(test::DefaultOptions());
   bool deaf = false;

@@ -60,9 +60,9 @@ TEST_F(BeaconFreshnessTest, WhoSaysGoodByeIsNotStale) {
 }
 
 TEST_F(BeaconFreshnessTest, WhoGoesOutOfReachIsNotStale) {
-  Hear(2, milliseconds(0));
+  Hear(2, milliseconds(0), Mode::kCooperative, options_.emission_radius_m - 0.02);
   Update(milliseconds(0));
-  Hear(2, milliseconds(50), Mode::kCooperative, options_.emission_radius_m + 1);
+  Hear(2, milliseconds(50), Mode::kCooperative, options_.emission_radius_m + 0.02);
   EXPECT_THAT(Update(milliseconds(50)), ElementsAre(Item{Kind::kOutOfReach, VehicleId{2}}));
 }
 

@@ -23,12 +23,13 @@ class Joining : public ::testing::Test {
     entry.start_world.position_world.x = x_m;
     return entry;
   }
-  std::optional<RosterEntry> JoinAs(VehicleId wanted) {
+  JoinEnd EndOfJoiningAs(VehicleId wanted, int most_looks = 200) {
     int looks = 0;
     return Join(
         {.link = &link_, .clock = &clock_, .health = &health_, .scenario = &scenario_},
-        [&looks] { return ++looks > 200; }, wanted, kSession);
+        [&] { return ++looks > most_looks; }, wanted, kSession);
   }
+  std::optional<RosterEntry> JoinAs(VehicleId wanted) { return EndOfJoiningAs(wanted).entry; }
 
   HandClock clock_;
   ScriptedLink link_{&clock_, [](std::uint32_t) { return Arrival{}; }};
@@ -54,6 +55,19 @@ TEST_F(Joining, APlaceFarOffIsNotTakenAndAskedForAgain) {
   EXPECT_EQ(entry->start_world.position_world.x, 2);
 }
 
+// Regression: a vehicle that had driven straight on for 50 m was given no place any more.
+TEST_F(Joining, WhatDrivesStraightOnMayBeAnywhere) {
+  const auto why = [this](double x_m) { return WhyNoPlace(scenario_, At(x_m), kOne); };
+  EXPECT_FALSE(why(1000).empty());
+  scenario_.vehicles.front().goal.set = false;
+  EXPECT_EQ(why(1000), "");
+  Route& route = scenario_.vehicles.front().route;
+  route.waypoints_world[route.count++] = {1, 1};
+  EXPECT_EQ(why(1000), "");
+  route.loop = true;
+  EXPECT_FALSE(why(1000).empty());
+}
+
 TEST_F(Joining, AnotherIdThanTheOneWantedIsNotTaken) {
   link_.Answer(At(0));
   scenario_.vehicles.push_back(DefaultOptions());
@@ -66,6 +80,16 @@ TEST_F(Joining, AWorldWithAnotherScenarioIsAnErrorAtStart) {
   entry.spawn = 3;
   link_.Answer(entry);
   EXPECT_THROW(JoinAs(kOne), link::LinkError);
+}
+
+// Regression: this was an exception, and so exit code 2, after which no supervisor starts it again.
+TEST_F(Joining, WhoseInterfaceIsAnotherEndsToBeStartedAgain) {
+  constexpr int kForMinutes = 10'000;
+  EXPECT_FALSE(EndOfJoiningAs(kOne, kForMinutes).interface_lost);
+  link_.ChangeInterface("the network interfaces changed");
+  const JoinEnd end = EndOfJoiningAs(kOne, kForMinutes);
+  EXPECT_TRUE(end.interface_lost);
+  EXPECT_FALSE(end.entry);
 }
 
 TEST_F(Joining, ARefusalIsTheLastWord) {

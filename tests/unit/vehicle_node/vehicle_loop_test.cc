@@ -131,6 +131,24 @@ TEST(VehicleLoop, AnEntryWithAnotherIdOrAPlaceThatCannotBeIsNotFollowed) {
   }
 }
 
+// Regression: a vehicle far outside its scenario ignored that its run had ended, and never ended.
+TEST(VehicleLoop, EndsWithItsRunWhereverItIs) {
+  RosterEntry far = Entry(RunState::kEnded);
+  far.start_world.position_world.x += 100;
+  LoopBench bench(ScansAnd(3, far));
+  EXPECT_EQ(bench.Drive(), DriveEnd::kOver);
+  EXPECT_EQ(bench.Link().Turns(), 3U);
+  for (const bool other_world : {false, true}) {
+    RosterEntry of_another = far;
+    if (other_world) of_another.epoch = kNextWorld;
+    if (!other_world) of_another.vehicle = VehicleId{2};
+    LoopBench stays(ScansAnd(3, of_another));
+    stays.StopAt(8);
+    stays.Drive();
+    EXPECT_EQ(stays.Link().Turns(), 11U);  // and three good-byes
+  }
+}
+
 TEST(VehicleLoop, ToldToStopSaysGoodByeThreeTimesAndLeaves) {
   LoopBench bench(ScanOnly);
   bench.StopAt(5);

@@ -76,6 +76,18 @@ TEST(DueTimesOfAPlace, GrowByWhatTheOthersNeed) {
   EXPECT_GT(DueTimes(scenario, 10)[0].at_s, due[0].at_s);
 }
 
+// Regression: a user's file of the name "shared_goal" was excused as the generator's places are.
+TEST(DueTimesOfAPlace, AreOfAPlaceThatThePlanSaysWhateverItsName) {
+  Scenario scenario = FindGenerator("shared_goal")->make({4, 1});
+  EXPECT_TRUE(LimitsFor(scenario, VirtualPlan{}).one_of.empty());
+  EXPECT_TRUE(LimitsFor(scenario, VirtualPlan{}).due.empty());
+  scenario.name = "shared_goal_1";
+  VirtualPlan plan;
+  plan.through_m = 2;
+  EXPECT_FALSE(LimitsFor(scenario, plan).one_of.empty());
+  EXPECT_EQ(LimitsFor(scenario, plan).due.size(), 4U);
+}
+
 TEST(DueTimesOfAPlace, AllowForTurning) {
   VehicleOptions options = Towards(1, {10, 0});
   const double ahead_s = AloneSeconds(options);

@@ -113,5 +113,18 @@ TEST_F(ClearanceTest, IsNoReasonToFailUnlessAskedFor) {
   EXPECT_EQ(held_to.First().size(), 1U);
 }
 
+// Of real runs, which report those alone that are required, the others are not judged.
+TEST_F(ClearanceTest, IsNotEvenCountedWhereOthersAreNotUnlessAskedFor) {
+  now_[1].position_world = {0.54, 0};
+  InvariantLimits limits{.counts_others = false};
+  Invariants left_out(scenario_, limits);
+  left_out.Observe(Tick{1}, 0.05, now_, {});
+  EXPECT_EQ(left_out.Count(Invariant::kClearance), 0U);
+  limits.required.set(static_cast<std::size_t>(Invariant::kClearance));
+  Invariants held_to(scenario_, limits);
+  held_to.Observe(Tick{1}, 0.05, now_, {});
+  EXPECT_EQ(held_to.Broken(), 1U);
+}
+
 }  // namespace
 }  // namespace giveway::sim

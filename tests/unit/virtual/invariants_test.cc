@@ -110,6 +110,41 @@ TEST_F(InvariantsTest, WhatRunsIntoAStandingVehicleIsNotItsFault) {
   EXPECT_EQ(Count(Invariant::kContact), 1U);
 }
 
+// Regression: a box that turned a corner into a wall was excused as a body that stood.
+TEST_F(InvariantsTest, ABoxThatTurnsACornerIntoAWallIsAtFaultAndADiscTurnsIntoNothing) {
+  const WorldEvent contact{.kind = EventKind::kContact, .vehicle = VehicleId{1}};
+  for (const BodyShape shape : {BodyShape::kDisc, BodyShape::kBox}) {
+    scenario_.vehicles[0].profile.shape = shape;
+    Begin({});
+    turning_m_s_ = 0;
+    Vehicle(1).forward_m_s = 0;
+    Observe();
+    Observe({contact});
+    EXPECT_EQ(Count(Invariant::kContact), 0U) << "what runs into it while it stands";
+    turning_m_s_ = 0.2;
+    Observe();
+    turning_m_s_ = 0;  // the world has stopped it by the time it is seen
+    Observe({contact});
+    EXPECT_EQ(Count(Invariant::kContact), shape == BodyShape::kBox ? 1U : 0U);
+    Observe();
+    Vehicle(1).heading_rad += 0.001;  // in this tick alone
+    Observe({contact});
+    EXPECT_EQ(Count(Invariant::kContact), shape == BodyShape::kBox ? 2U : 0U);
+  }
+}
+
+// Regression: it was the lower id's, whichever turned.
+TEST_F(InvariantsTest, OfTwoOnTheSpotTheBoxThatTurnsIsAtFault) {
+  scenario_.vehicles[1].profile.shape = BodyShape::kBox;
+  Begin({});
+  Vehicle(1).forward_m_s = Vehicle(2).forward_m_s = 0;
+  turning_m_s_ = 0.2;
+  Observe();
+  Observe({{.kind = EventKind::kContact, .vehicle = VehicleId{1}, .other = VehicleId{2}}});
+  ASSERT_EQ(invariants_->First().size(), 1U);
+  EXPECT_EQ(invariants_->First()[0].vehicle, VehicleId{2});
+}
+
 TEST_F(InvariantsTest, AContactWithAWallIsTheFaultOfTheOnlyVehicle) {
   Observe({{.kind = EventKind::kContact, .vehicle = VehicleId{3}}});
   EXPECT_EQ(invariants_->First()[0].vehicle, VehicleId{3});
@@ -128,6 +163,21 @@ TEST_F(InvariantsTest, BrakingOnStaleRangesIsAllowedAndDrivingOnIsNot) {
   Vehicle(1).forward_m_s = 0.05;
   Observe(10);
   EXPECT_EQ(Count(Invariant::kStaleMotion), 1U);
+}
+
+// While others came and went 13 ticks were not seen whole, in which it drove: a soak said that it
+// had moved on stale data.
+TEST_F(InvariantsTest, WhatWasNotSeenIsNotHeldAgainstOneThatIsStaleAgain) {
+  Vehicle(1).decision = {.mode = Mode::kHalt, .rule = Rule::kRangesStale};
+  Vehicle(1).forward_m_s = 0;
+  Observe(5);
+  tick_ += 13;
+  Vehicle(1).forward_m_s = 0.06;
+  Observe();
+  EXPECT_EQ(Count(Invariant::kStaleMotion), 0U);
+  Vehicle(1).forward_m_s = 0.3;
+  Observe(3);
+  EXPECT_EQ(Count(Invariant::kStaleMotion), 1U) << "it does not brake";
 }
 
 TEST_F(InvariantsTest, TurningOnTheSpotOnStaleRangesIsMotion) {

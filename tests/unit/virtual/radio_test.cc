@@ -18,8 +18,9 @@ namespace {
 constexpr std::size_t kListener = 0;
 constexpr std::size_t kTalker = 1;
 
-Scenario TwoVehicles() {
+Scenario TwoVehicles(Nanoseconds tick_period) {
   Scenario scenario;
+  scenario.tick_period = tick_period;
   scenario.vehicles.resize(2);
   scenario.vehicles[kListener].id = VehicleId{1};
   scenario.vehicles[kTalker].id = VehicleId{2};
@@ -32,7 +33,7 @@ class RadioTest : public testing::Test {
   explicit RadioTest() { places_ = {{{0, 0}, true}, {{3, 0}, true}}; }
 
   void Begin(const RadioSettings& settings, std::uint64_t seed = 1) {
-    radio_.emplace(TwoVehicles(), settings, seed);
+    radio_.emplace(TwoVehicles(tick_period_), settings, seed);
     tick_ = 0;
   }
   // One tick: sequence numbers heard in it.
@@ -65,6 +66,25 @@ class RadioTest : public testing::Test {
     return all;
   }
 
+  // What the middleware said in each of so many ticks of silence, by kind.
+  std::vector<std::pair<std::uint32_t, QosEventKind>> SaidOfSilence() {
+    Begin({});
+    talks_ = true;
+    Ticks(10);
+    talks_ = false;
+    Tick();  // hears the last one
+    std::vector<std::pair<std::uint32_t, QosEventKind>> said;
+    for (std::uint32_t silent = 1; silent <= 20; ++silent) {
+      Tick();
+      for (const QosEvent& event : events_) {
+        EXPECT_EQ(event.vehicle, VehicleId{2});
+        said.emplace_back(silent, event.kind);
+      }
+    }
+    return said;
+  }
+
+  Nanoseconds tick_period_{50'000'000};
   std::optional<Radio> radio_;
   std::vector<RadioPlace> places_;
   std::vector<ReceivedBeacon> heard_;
@@ -234,23 +254,21 @@ TEST_F(RadioTest, AReachOfItsOwnEndsWhereItEnds) {
   EXPECT_EQ(Ticks(3), Numbers{});
 }
 
-// What the middleware said in each of so many ticks, by kind.
 TEST_F(RadioTest, ASilentPeerMissesItsDeadlineOnceAndThenItsLease) {
-  Begin({});
-  Ticks(10);
-  talks_ = false;
-  Tick();  // hears the last one
-  std::vector<std::pair<std::uint32_t, QosEventKind>> said;
-  for (std::uint32_t silent = 1; silent <= 20; ++silent) {
-    Tick();
-    for (const QosEvent& event : events_) {
-      EXPECT_EQ(event.vehicle, VehicleId{2});
-      said.emplace_back(silent, event.kind);
-    }
-  }
   const std::vector<std::pair<std::uint32_t, QosEventKind>> expected = {
       {3, QosEventKind::kDeadlineMissed}, {5, QosEventKind::kLivelinessLost}};
-  EXPECT_EQ(said, expected);
+  EXPECT_EQ(SaidOfSilence(), expected);
+}
+
+// Regression: with ticks of 200 ms one beacon that was lost was a missed deadline, two a lost peer.
+TEST_F(RadioTest, LongerTicksGiveAPeerAsManyBeaconsToLose) {
+  tick_period_ = Nanoseconds{200'000'000};
+  const std::vector<std::pair<std::uint32_t, QosEventKind>> expected = {
+      {3, QosEventKind::kDeadlineMissed}, {5, QosEventKind::kLivelinessLost}};
+  EXPECT_EQ(SaidOfSilence(), expected);
+  tick_period_ = Nanoseconds{10'000'000};
+  ASSERT_EQ(SaidOfSilence().size(), 1U);  // in 20 of these ticks the lease is not over
+  EXPECT_EQ(SaidOfSilence().front().first, 15U);
 }
 
 TEST_F(RadioTest, WhoDrivesOutOfReachIsNotMissed) {

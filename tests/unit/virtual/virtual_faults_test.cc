@@ -130,6 +130,22 @@ TEST(VirtualFaults, AKilledVehicleIsNotWaitedFor) {
   EXPECT_EQ(outcome.delays_s.size(), 1U);
 }
 
+// Regression: one whose body was removed came back right in front of a vehicle that drove past its
+// start place, which could not stop any more and was blamed.
+TEST(VirtualFaults, AVehicleDoesNotComeBackWhereAnotherCannotStopForIt) {
+  Scenario scenario =
+      test::ScenarioOf({test::VehicleAt(1, Behaviour::kCooperative, 0.4, {-12, 0}, 0, 24),
+                        test::VehicleAt(2, Behaviour::kCooperative, 1.0, {3, 0}, 90, 19)});
+  scenario.duration_s = 120;
+  scenario.remove_after_s = 1;
+  for (int i = 0; i < 40; ++i) {
+    const double for_s = 21.5 + 0.05 * i;
+    const auto outcome = RunVirtually(scenario, Planned({FaultFor(Kind::kRestart, 14, for_s)}));
+    EXPECT_EQ(outcome.contacts, 0U) << for_s;
+    EXPECT_TRUE(outcome.held) << for_s;
+  }
+}
+
 // Longer than the world waits for a command: it is taken back nevertheless, where it stands.
 TEST(VirtualFaults, AVehiclePausedForSecondsIsTakenBack) {
   VirtualFleet fleet(TwoOnARoad(), Planned({FaultFor(Kind::kPause, 4, 3)}));

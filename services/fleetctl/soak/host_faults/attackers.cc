@@ -87,7 +87,8 @@ void Attackers::Begin(const faults::Fault& fault) {
   ChildCommand command;
   command.name = fmt::format("attacker of {}#{}", fault.rule, fault.nth);
   command.words = AttackWords(tools_, fault);
-  running_[&fault].process = std::make_unique<ChildProcess>(command);
+  auto process = std::make_unique<ChildProcess>(command);
+  running_[&fault].process = std::move(process);
 }
 
 void Attackers::Turn() {

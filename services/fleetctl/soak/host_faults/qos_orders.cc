@@ -13,6 +13,7 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr Nanoseconds kBeforeAgain = std::chrono::seconds(2);
+constexpr ProcessEnd kNotStarted{.by_signal = false, .number = 127};  // as a shell says it
 
 }  // namespace
 
@@ -61,8 +62,13 @@ void QosOrders::Turn(SteadyTime now) {
     const std::optional<QosOrder> due = ordered.course.Due(now);
     if (!due) continue;
     ordered.order = *due;
-    ordered.process = Start(ordered);
     ordered.course.NoteGiven(*due);
+    try {
+      ordered.process = Start(ordered);
+    } catch (const StartError& error) {
+      ended_.push_back({fault, *due, kNotStarted, error.what()});
+      ordered.course.NoteEnd(false, now);
+    }
   }
   std::erase_if(ordered_, [](const auto& entry) { return entry.second.course.IsOver(); });
 }

@@ -50,8 +50,7 @@ class QosOrders {
   // `fault` outlives its orders. `to` as the flag --to has it.
   void Begin(const faults::Fault& fault, const std::string& set, const std::string& to);
   void End(const faults::Fault& fault);
-  // Gives what is due, polls what was given. Call often. Throws StartError if a process cannot
-  // be started.
+  // Gives what is due, polls what was given. Call often.
   void Turn(SteadyTime now);
 
   struct Ended {

@@ -5,8 +5,10 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 #include <new>
 #include <utility>
 
@@ -21,7 +23,11 @@ constexpr mode_t kOwnerOnly = 0600;
 void* MapNew(const std::string& file) {
   const FileDescriptor made(
       ::open(file.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, kOwnerOnly));
-  if (!made.IsOpen() || ::ftruncate(made.Get(), sizeof(ClockShift)) != 0) return MAP_FAILED;
+  if (!made.IsOpen()) return MAP_FAILED;
+  // Zeros, not a hole: on a full disk a write through the mapping would end this process.
+  constexpr std::array<char, sizeof(ClockShift)> kZeros{};
+  errno = ENOSPC;  // of a part
+  if (::write(made.Get(), kZeros.data(), kZeros.size()) != std::ssize(kZeros)) return MAP_FAILED;
   return ::mmap(nullptr, sizeof(ClockShift), PROT_READ | PROT_WRITE, MAP_SHARED, made.Get(), 0);
 }
 

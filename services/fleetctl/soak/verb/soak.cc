@@ -39,6 +39,8 @@
 #include "services/fleetctl/soak/soak_page.h"
 #include "services/fleetctl/soak/soak_session.h"
 #include "services/fleetctl/soak/soak_verdict.h"
+#include "services/fleetctl/soak/verb/fleet_set.h"
+#include "services/fleetctl/soak/verb/folder_lock.h"
 #include "services/fleetctl/soak/verb/soak_faults.h"
 #include "services/fleetctl/soak/verb/soak_origin.h"
 #include "services/fleetctl/soak/verb/soak_resume.h"
@@ -64,9 +66,10 @@ struct Prepared {
   std::vector<VehicleId> fleet;
   SoakFaults faults;
   faults::Schedule schedule;
-  std::vector<std::string> skipped;
+  SkippedFaults skipped;
   SoakPhases phases;
   std::uint32_t newcomers = 0;
+  std::optional<FolderLock> lock;
 };
 
 // The world injects its own faults, and the receivers' faults are impairments: both are always
@@ -83,37 +86,34 @@ std::string WhyNot(const faults::Fault& fault, const std::string& why_no_attacke
 
 bool Records(const SoakOptions& options) { return options.record || options.ring_s > 0; }
 
-std::string InWords(const faults::Fault& fault) {
-  return fmt::format("{}#{} ({} of {} at {:.1f} s)", fault.rule, fault.nth,
-                     faults::ToString(fault.kind), faults::ToString(fault.target), fault.at_s);
-}
-
 std::string WhyNotOf(const faults::Incapable& incapable, const faults::Fault& fault) {
   const auto cannot = faults::UnsupportedIn({fault}, incapable);
   return cannot.empty() ? "" : cannot.front().reason;
 }
 
 std::string WhyNot(const SoakOptions& options, const Scenario& scenario,
-                   const std::string& why_no_attacker, const faults::Fault& fault) {
+                   const std::string& why_no_attacker, FleetSet* set, const faults::Fault& fault) {
   const std::string sensors = WhyNotOf(faults::IncapableWithSensorsOf(scenario), fault);
   if (!sensors.empty()) return sensors;
   if (std::string lacks = faults::WhyTargetLacks(fault, scenario); !lacks.empty()) return lacks;
   if (fault.kind == faults::Kind::kDiskFull && !options.in_virtual_time && !Records(options)) {
     return "the vehicles write no files without --record or --record-ring";
   }
-  return options.in_virtual_time ? WhyNotOf(faults::IncapableInVirtualTime(), fault)
-                                 : WhyNot(fault, why_no_attacker, options.discovery_servers > 0);
+  if (options.in_virtual_time) return WhyNotOf(faults::IncapableInVirtualTime(), fault);
+  const std::string why = WhyNot(fault, why_no_attacker, options.discovery_servers > 0);
+  return why.empty() ? set->WhyNot(fault) : why;
 }
 
 // Refuses all faults that cannot be injected here, in one error; or leaves them out and reports it.
 void Sift(const SoakOptions& options, const Scenario& scenario, Prepared* prepared) {
   std::vector<Problem> problems;
   const std::string why_no_attacker = WhyNoAttacker(options.attacker, MayOpenPacketSocket());
+  FleetSet set(prepared->qos_file);
   std::erase_if(prepared->schedule, [&](const faults::Fault& fault) {
-    const std::string why = WhyNot(options, scenario, why_no_attacker, fault);
+    const std::string why = WhyNot(options, scenario, why_no_attacker, &set, fault);
     if (why.empty()) return false;
     if (options.skip_unsupported) {
-      prepared->skipped.push_back(InWords(fault) + ": " + why);
+      prepared->skipped.Add(fault, why);
     } else {
       problems.push_back({FileOf(prepared->faults.sources, fault.rule), 0, fault.rule,
                           std::string(faults::ToString(fault.kind)),
@@ -171,9 +171,10 @@ Prepared Prepare(const SoakOptions& options) {
   prepared.schedule = ExpandFaults(prepared.faults.sources, course, prepared.fleet).schedule;
   Sift(options, as_shipped, &prepared);
   RefuseUnsoundSets(prepared.schedule);
+  CheckFolder(options.report_folder);
+  prepared.lock.emplace(options.report_folder, "--report");
   ForgetSoak(options.report_folder);
 
-  CheckFolder(options.report_folder);
   const fs::path folder(options.report_folder);
   if (!options.in_virtual_time) {
     prepared.logs_folder = (folder / "logs").string();
@@ -252,12 +253,9 @@ FaultTools ToolsOf(const SoakOptions& options, const FleetSpec& spec, const Prep
     WriteFile(tools.patient_readers,
               WithPatientReaders(ReadTextFile(spec.qos_file), spec.qos_file));
   }
-  tools.impairment_since = [&prepared, folder](VehicleId vehicle, double since_s) {
-    const auto impaired = faults::ImpairmentOf(prepared.schedule, {{vehicle}}, since_s);
-    const auto found = impaired.find(vehicle);
-    return found == impaired.end() ? std::string() : ImpairFlag(folder, vehicle, found->second);
-  };
   const bool steps_clocks = Has(prepared.schedule, {faults::Kind::kClockStep});
+  const std::map<VehicleId, Impairment> heard =
+      faults::ImpairmentWith(prepared.schedule, prepared.fleet, prepared.scenario.impairment);
   for (MemberCommand& command : tools.commands) {
     if (steps_clocks) {
       const fs::path file = folder / fmt::format("{}.clock", command.member.number);
@@ -265,8 +263,10 @@ FaultTools ToolsOf(const SoakOptions& options, const FleetSpec& spec, const Prep
       command.child.environment = clock->second.Environment();
     }
     if (command.member == kTheWorld) continue;
-    const std::string impair = tools.impairment_since(VehicleId{command.member.number}, 0);
-    if (!impair.empty()) SetFlag(&command.child.words, "--impair", impair);
+    const auto impaired = heard.find(VehicleId{command.member.number});
+    if (impaired == heard.end() || impaired->second.rules.empty()) continue;
+    SetFlag(&command.child.words, "--impair",
+            ImpairFlag(folder, impaired->first, impaired->second));
   }
   tools.commands.insert(tools.commands.begin(), servers.begin(), servers.end());
   return tools;
@@ -289,7 +289,8 @@ SoakResult BlankResult(const SoakOptions& options, const Prepared& prepared, std
   result.virtual_time = options.in_virtual_time;
   result.faults_file = prepared.faults.name;
   result.qos_set = prepared.qos_file;
-  result.skipped_faults = prepared.skipped;
+  result.skipped_faults = prepared.skipped.Lines();
+  result.skipped_counted = prepared.skipped.Count();
   SoakOptions repeated = options;
   repeated.faults = prepared.faults.flag;
   result.command = CommandLine(repeated);
@@ -303,8 +304,7 @@ const VehicleOptions& AnyVehicle(const Scenario& scenario) {
 
 // `finished`: there is nothing left to resume.
 int Conclude(const SoakOptions& options, const SoakResult& result, bool finished) {
-  std::fputs((options.json ? ToJson(result) + "\n" : ForTerminal(ToText(result))).c_str(), stdout);
-  const bool written = std::fflush(stdout) == 0;
+  const bool written = PrintAll(options.json ? ToJson(result) + "\n" : ForTerminal(ToText(result)));
   Interrupts::AllowSeconds(kWriting_s);
   const int code = std::max(ExitCode(result.verdict), written ? 0 : 1);
   return WriteAfterVerdict(code, [&] {
@@ -329,9 +329,7 @@ int SoakVirtually(const SoakOptions& options) {
   const Scenario scenario = VirtualScenario(options, prepared);
   SoakResult result = BlankResult(options, prepared, 0);
   const SoakSeen seen = RunSoakVirtually(scenario, prepared.schedule, prepared.phases);
-  EvaluateSoak(
-      {seen, prepared.schedule, {}, [](SteadyTime, SteadyTime) { return Nanoseconds{0}; }, false},
-      &result);
+  EvaluateSoak({seen, prepared.schedule, {}, false}, &result);
   return Conclude(options, result, true);
 }
 
@@ -351,19 +349,14 @@ int SoakProcesses(const SoakOptions& options, const Prepared& prepared, const So
                                    AnyVehicle(prepared.scenario));
   std::fprintf(stderr, "%s on domain %u, %u vehicles, %zu faults planned, %zu left out\n",
                blank.scenario.c_str(), lock.Domain(), blank.vehicles, prepared.schedule.size(),
-               prepared.skipped.size());
+               prepared.skipped.Count());
   FaultTools tools = ToolsOf(options, spec, prepared);
   tools.shm = shm ? &*shm : nullptr;
-  SoakSession session(spec, prepared.scenario, prepared.schedule, prepared.phases,
+  SoakSession session(spec, prepared.scenario, prepared.schedule, prepared.phases, limits,
                       std::move(tools));
   const auto judged = [&](const SoakSeen& seen) {
     SoakResult result = blank;
-    EvaluateSoak({seen, prepared.schedule, limits,
-                  [&session](SteadyTime from, SteadyTime to) {
-                    return session.Stalls().LongestPause(from, to);
-                  },
-                  true, prepared.fleet},
-                 &result);
+    EvaluateSoak({seen, prepared.schedule, limits, true, prepared.fleet}, &result);
     return whole == nullptr ? result : Joined(*whole, result);
   };
   // A disk that stalls, or hours to write down, would be a pause of the supervisor, which is taken
@@ -399,11 +392,36 @@ SoakOptions OptionsOfRest(const SoakOptions& asked, const SoakResult& so_far) {
   return options;
 }
 
+// The set of the fleet before, which may be asked for again, as by an environment that still has
+// it.
+void RefuseAnotherSet(const SoakOptions& asked, const SoakResult& so_far) {
+  if (asked.qos_file.empty() || ResolveQosFile(asked.qos_file) == so_far.qos_set) return;
+  throw InputError({{.file = asked.resume,
+                     .field = "--qos",
+                     .value = asked.qos_file,
+                     .message = "the soak runs with " + so_far.qos_set,
+                     .remedy = "leave --qos and GIVEWAY_QOS out"}});
+}
+
+void NoteRecordings(const SoakOptions& options, const fs::path& folder) {
+  if (Records(options)) {
+    CheckFolder(folder.string());
+  } else if (fs::exists(folder)) {
+    std::fprintf(
+        stderr,
+        "the fleet before recorded, and this one does not: --record or --record-ring are to "
+        "be given again\n");
+  }
+}
+
 int Resume(const SoakOptions& asked) {
+  static_cast<void>(LoadSoFar(asked.resume));  // else a lock is left in any folder
+  Prepared prepared;
+  prepared.lock.emplace(asked.resume, "--resume");
   const SoakResult so_far = LoadSoFar(asked.resume);
+  RefuseAnotherSet(asked, so_far);
   const SoakOptions options = OptionsOfRest(asked, so_far);
   const fs::path folder(options.report_folder);
-  Prepared prepared;
   prepared.scenario_file = options.scenario;
   prepared.qos_file = options.qos_file;
   prepared.scenario = LoadAndCheck(options).scenario;
@@ -415,11 +433,12 @@ int Resume(const SoakOptions& asked) {
   prepared.faults = FaultsOf(options, std::nullopt);
   const faults::Schedule whole =
       ExpandFaults(prepared.faults.sources, course, prepared.fleet).schedule;
-  prepared.schedule = RestOf(whole, so_far.ran_s, prepared.phases.faults_from_s, &prepared.skipped);
+  prepared.schedule = RestOf(whole, so_far, prepared.phases.faults_from_s, &prepared.skipped);
   Sift(options, prepared.scenario, &prepared);
   const std::string rest = fmt::format("rest-{}", so_far.resumed_at_s.size() + 1);
   prepared.logs_folder = (folder / "logs" / rest).string();  // those of the fleet before stay
   CheckFolder(prepared.logs_folder);
+  NoteRecordings(options, folder / "recordings");
   WriteLists(folder, "." + rest, &prepared);
   // A new fleet: the old world's times and places are no longer valid.
   fs::remove(folder / kCheckpointFile);

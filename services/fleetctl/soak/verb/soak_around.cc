@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
+#include <map>
+#include <utility>
 
 #include "services/config/faults/faults_file.h"
 #include "services/config/problem.h"
@@ -35,12 +37,18 @@ SoakResult ReadResult(const std::string& folder) {
 
 }  // namespace
 
-faults::Schedule Around(const faults::Schedule& schedule, double time_s) {
+// What the world carries out starts later than planned where its time stood.
+faults::Schedule Around(const faults::Schedule& schedule, const std::vector<SoakFault>& as_observed,
+                        double time_s) {
+  std::map<std::pair<std::string, std::uint32_t>, double> started_s;
+  for (const SoakFault& fault : as_observed) started_s[{fault.rule, fault.nth}] = StartOf(fault);
   faults::Schedule around;
-  std::ranges::copy_if(schedule, std::back_inserter(around), [time_s](const faults::Fault& fault) {
+  std::ranges::copy_if(schedule, std::back_inserter(around), [&](const faults::Fault& fault) {
+    const auto started = started_s.find({fault.rule, fault.nth});
+    const double at_s = started == started_s.end() ? fault.at_s : started->second;
     const bool lasts =
-        fault.kind == faults::Kind::kKill || fault.EndsAt_s() >= time_s - kAroundBefore_s;
-    return fault.at_s <= time_s + kAroundAfter_s && lasts;
+        fault.kind == faults::Kind::kKill || at_s + fault.for_s >= time_s - kAroundBefore_s;
+    return at_s <= time_s + kAroundAfter_s && lasts;
   });
   return around;
 }
@@ -61,7 +69,7 @@ int WriteAround(const std::string& folder) {
   const faults::Course course{seed, result.planned_s, 0, 0};
   const std::string faults_file = (fs::path(folder) / "faults.textproto").string();
   const faults::Schedule all = LoadAndExpandFaults(faults_file, course, fleet).schedule;
-  const faults::Schedule around = Around(all, first.time_s);
+  const faults::Schedule around = Around(all, result.faults, first.time_s);
   const std::string file = (fs::path(folder) / "around.textproto").string();
   WriteFile(file, faults::AsTextproto(around));
   fmt::print("{} of {} faults are around {} at {:.1f} s: {}\n", around.size(), all.size(),

@@ -6,8 +6,11 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "services/config/problem.h"
+#include "services/faults/kind_table.h"
 #include "services/fleetctl/soak/soak_json.h"
 #include "services/runtime/whole_file.h"
 
@@ -41,8 +44,19 @@ void AppendSlopes(const std::vector<ResourceSlope>& more, double by_s,
   }
 }
 
+bool IsOfWorld(const SoakFault& fault) {
+  const std::optional<faults::Kind> kind = faults::KindOf(fault.kind);
+  return kind && faults::ActorOf(*kind) == faults::Actor::kWorld;
+}
+
 void AppendFaults(const SoakResult& rest, double by_s, SoakResult* joined) {
-  std::erase_if(joined->faults, [by_s](const SoakFault& fault) { return fault.at_s >= by_s; });
+  std::erase_if(joined->faults, [by_s](const SoakFault& fault) {
+    return fault.at_s >= by_s || (NeverStarted(fault) && IsOfWorld(fault));  // which are left out
+  });
+  for (SoakFault& fault : joined->faults) {
+    const bool unknown = NeverStarted(fault) && fault.observed_how.empty();
+    if (unknown) fault.observed_how = "active as the soak died: not judged";
+  }
   for (SoakFault fault : rest.faults) {
     fault.at_s += by_s;
     if (fault.observed_s) *fault.observed_s += by_s;
@@ -83,6 +97,11 @@ void JoinCounts(const SoakResult& rest, double by_s, SoakResult* joined) {
   joined->ticks_judged += rest.ticks_judged;
   joined->ticks_unseen += rest.ticks_unseen;
   joined->faults_observed += rest.faults_observed;
+  joined->restarts_planned += rest.restarts_planned;
+  // The first leg had them all; what is left out since does not come.
+  const std::uint64_t planned = std::max(joined->faults_counted, rest.skipped_counted);
+  joined->faults_counted =
+      std::max<std::uint64_t>(joined->faults.size(), planned - rest.skipped_counted);
   joined->near_misses_counted += rest.near_misses_counted;
   joined->modes_counted += rest.modes_counted;
   joined->lives_too_short += rest.lives_too_short;
@@ -160,18 +179,26 @@ SoakResult LoadSoFar(const std::string& folder) {
                                "one that died before its fleet drove must be started again"}});
 }
 
-faults::Schedule RestOf(const faults::Schedule& whole, double from_s, double warm_up_s,
-                        std::vector<std::string>* lost) {
+faults::Schedule RestOf(const faults::Schedule& whole, const SoakResult& so_far, double warm_up_s,
+                        SkippedFaults* lost) {
+  const double from_s = so_far.ran_s;
+  std::set<std::pair<std::string, std::uint32_t>> awaited;
+  for (const SoakFault& fault : so_far.faults) {
+    if (NeverStarted(fault) && IsOfWorld(fault)) awaited.insert({fault.rule, fault.nth});
+  }
   faults::Schedule rest;
-  for (faults::Fault fault : whole) {
-    if (fault.at_s < from_s) continue;
-    fault.at_s -= from_s;
-    if (fault.at_s >= warm_up_s) {
-      rest.push_back(std::move(fault));
-    } else {
-      lost->push_back(fmt::format("{}#{} at {:.1f} s: fell into the start of the resumed fleet",
-                                  fault.rule, fault.nth, fault.at_s + from_s));
+  for (const faults::Fault& fault : whole) {
+    if (fault.at_s < from_s) {
+      if (!awaited.contains({fault.rule, fault.nth})) continue;
+      lost->Add(fault, "had not come as the soak died: the world's time lagged");
+      continue;
     }
+    if (fault.at_s - from_s < warm_up_s) {
+      lost->Add(fault, "fell into the start of the resumed fleet");
+      continue;
+    }
+    rest.push_back(fault);
+    rest.back().at_s -= from_s;
   }
   return rest;
 }
@@ -185,6 +212,7 @@ SoakResult Joined(const SoakResult& so_far, const SoakResult& rest) {
   joined.resumed_at_s.push_back(by_s);
   AppendFaults(rest, by_s, &joined);
   Append(rest.skipped_faults, &joined.skipped_faults);
+  joined.skipped_counted += rest.skipped_counted;
   AppendLater(rest.violations, by_s, &joined.violations);
   AppendLater(rest.near_misses, by_s, &joined.near_misses);
   AppendLater(rest.modes, by_s, &joined.modes);

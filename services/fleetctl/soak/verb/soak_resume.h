@@ -3,10 +3,10 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "services/faults/fault.h"
 #include "services/fleetctl/soak/soak_result.h"
+#include "services/fleetctl/soak/verb/soak_faults.h"
 
 namespace giveway::fleetctl {
 
@@ -24,10 +24,11 @@ void ForgetSoak(const std::string& folder);
 // Throws InputError if the folder has no soak that can be resumed.
 SoakResult LoadSoFar(const std::string& folder);
 
-// The faults left after `from_s`, in the time of a new fleet, whose own warm-up is `warm_up_s`.
-// Those that would start before the end of the warm-up are added to `lost`, as text. Pure.
-faults::Schedule RestOf(const faults::Schedule& whole, double from_s, double warm_up_s,
-                        std::vector<std::string>* lost);
+// The faults left after the leg that died, in the time of a new fleet, whose own warm-up is
+// `warm_up_s`. Those that would start before the end of the warm-up are added to `lost`, and those
+// that a world whose time lagged had still to carry out. Pure.
+faults::Schedule RestOf(const faults::Schedule& whole, const SoakResult& so_far, double warm_up_s,
+                        SkippedFaults* lost);
 
 // Merges both, in the times of the whole; `rest` started at so_far.ran_s. Pure.
 SoakResult Joined(const SoakResult& so_far, const SoakResult& rest);

@@ -28,16 +28,19 @@ all of them keep those files. --around FOLDER writes the faults around the first
 broken promise of a report, for `fleetctl shrink`.
 
 --virtual runs the same list in virtual time, as far as it goes there, and
-judges it alike, without detection, resources and pauses. What was seen is saved
-every ten seconds, more rarely as it grows: --resume FOLDER continues after a
-crash of the machine, with a new fleet and the rest of the list, and the verdict
-says so.
+judges it alike, without detection, resources and pauses. It cannot be resumed:
+the same command gives the same run.
+
+A soak of processes saves what was seen every ten seconds, more rarely as it
+grows: --resume FOLDER continues after a crash of the machine, with a new fleet
+and the rest of the list, and the verdict says so. Give --record or --record-ring
+to it again.
 
 Faults of an intruder (spoofed, replayed, flooded, malformed) are carried out by
 the program that is built with the tests: --attacker build/release/bin/attacker.
 It needs root. Faults of discovery servers need --discovery-servers.
 
-A DURATION is seconds, or has a unit: 90, 90s, 30m, 12h, 7d. Faults are files or
+A TIME is seconds, or has a unit: 90, 90s, 30m, 12h, 7d. Faults are files or
 shipped sets: calm, radio_storm, flaky_hardware, everything. Those of the scenario
 itself are carried out with them. No random fault starts in the first 10 s and half
 a second a vehicle, and all are over 20 s before the end, each a quarter of the
@@ -96,7 +99,7 @@ void AddSoakFlags(CLI::App* verb, SoakOptions* options) {
       ->check(CLI::Range(0U, kMostDiscoveryServers))
       ->capture_default_str();
   verb->add_option("--attacker", options->attacker,
-                   "The intruder of spoofed, replayed, flooded and malformed; needs root")
+                   "Program that carries out spoofed, replayed, flooded, malformed; needs root")
       ->check(CheckNotEmpty)
       ->envname("GIVEWAY_ATTACKER");
   verb->add_flag("--record", options->record, "Every vehicle records into the report folder");
@@ -113,7 +116,11 @@ void AddSoakFlags(CLI::App* verb, SoakOptions* options) {
       ->check(CheckNotEmpty)
       ->excludes("--report")
       ->excludes("SCENARIO")
-      ->excludes("--virtual");
+      ->excludes("--virtual")
+      ->excludes("--faults")
+      ->excludes("--duration")
+      ->excludes("--seed")
+      ->excludes("--vehicles");
   verb->add_option("--around", options->around, "Write the faults around the first broken promise")
       ->check(CheckNotEmpty)
       ->excludes("--report")

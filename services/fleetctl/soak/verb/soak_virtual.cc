@@ -56,8 +56,11 @@ class VirtualSoak {
     seen_.started_at = kBegin;
     while (Time_s() < phases_.end_s && Interrupts::Count() == 0 && fleet_.Advance()) ObserveTick();
     seen_.interrupted = Interrupts::Count() > 0;
+    seen_.faults_outlasted_it = !seen_.interrupted && !AreFaultsOver();
     seen_.lasted_s = Time_s();
-    CarryOut(clock_.EndAll(Time_s()));
+    const auto cut_off = clock_.EndAll(Time_s());
+    CarryOut(cut_off);
+    for (const FaultEdge& edge : cut_off) watch_.NoteCutOff(edge.fault);
     invariants_.Finish(fleet_.World().Now(), observed_);
     Gather();
     return std::move(seen_);
@@ -65,6 +68,7 @@ class VirtualSoak {
 
  private:
   double Time_s() const { return fleet_.World().TimeSeconds(); }
+  bool AreFaultsOver() const { return Time_s() >= clock_.LastEnd_s(); }
   SteadyTime Now() const { return kBegin + FromSeconds(Time_s()); }
 
   void ObserveTick() {
@@ -81,7 +85,7 @@ class VirtualSoak {
     NoteEffects();
     CarryOut(clock_.TakeDue(Time_s()));
     course_.NoteModes(watch_, Now(), &seen_);
-    if (Time_s() >= clock_.LastEnd_s()) course_.SeekHealing(watch_, Now(), &seen_);
+    if (AreFaultsOver()) course_.SeekHealing(watch_, Now(), &seen_);
     ShowProgress();
   }
 

@@ -110,6 +110,16 @@ TEST(CampaignFile, MayRunAScenario) {
   EXPECT_EQ(LoadCampaignText(text + "duration_s: 20").duration_s, 20);
 }
 
+// Regression: what LoadFaults reads, 64 MiB, was refused as larger than 8 MiB.
+TEST(CampaignFile, TakesAFaultFileAsLargeAsAnyOtherReaderDoes) {
+  const TempFolder folder;
+  std::string faults = "description: \"long\"\n";
+  while (faults.size() < (9U << 20)) faults += "# " + std::string(1000, '-') + "\n";
+  const std::string file = folder.Write("f.textproto", faults);
+  const CampaignPlan plan = LoadCampaignText(std::string(kLeast) + "faults: \"" + file + "\"\n");
+  EXPECT_EQ(plan.fault_text.size(), faults.size());
+}
+
 TEST(CampaignFile, SaysWhatIsWrongWithItsScenario) {
   const std::string least = "name: \"a\"\nseeds: 3\n";
   EXPECT_THAT(

@@ -44,12 +44,12 @@ TEST(CampaignShardJson, ComesBackAsItWas) {
 }
 
 TEST(CampaignShardJson, SaysAllThatIsWrong) {
-  ShardResult spoilt = PretendedShard(SmallCampaign(), {1, 4});
-  spoilt.shard.index = 4;
-  spoilt.plan = "xyz";
-  spoilt.generators[0].generator = "crosing";
-  spoilt.generators[1].failed_runs = 1000;
-  EXPECT_THAT(ShardFromJson(ToJson(spoilt)).complaint,
+  ShardResult edited = PretendedShard(SmallCampaign(), {1, 4});
+  edited.shard.index = 4;
+  edited.plan = "xyz";
+  edited.generators[0].generator = "crosing";
+  edited.generators[1].failed_runs = 1000;
+  EXPECT_THAT(ShardFromJson(ToJson(edited)).complaint,
               AllOf(HasSubstr("index 4 of 4"), HasSubstr("plan is not 16"),
                     HasSubstr("\"crosing\" is no generator"), HasSubstr("swarm: more failed")));
   for (const char* text : {"", "{", "[]", "{\"format\":2}", "{}", "{\"format\":1,\"of\":\"x\"}"}) {
@@ -179,23 +179,23 @@ TEST(CampaignMerge, RefusesAShardTwice) {
 
 TEST(CampaignMerge, RefusesWhatIsOfAnotherPlanProgramOrCut) {
   const std::vector<NamedShard> shards = ShardsOf(SmallCampaign(), 3);
-  std::vector<NamedShard> spoilt = shards;
+  std::vector<NamedShard> edited = shards;
   CampaignPlan other = SmallCampaign();
   other.seeds.high += 1;
-  spoilt[1].result = PretendedShard(other, {1, 3});
-  EXPECT_THAT(Refusal(spoilt), AllOf(HasSubstr("r1: plan = "), HasSubstr("in r0")));
-  spoilt = shards;
-  spoilt[2].result.program = "ffff";
-  EXPECT_THAT(Refusal(spoilt), AllOf(HasSubstr("r2: program = ffff"), HasSubstr("in r0")));
-  spoilt = shards;
-  spoilt[2].result = PretendedShard(SmallCampaign(), {2, 4});
-  EXPECT_THAT(Refusal(spoilt), AllOf(HasSubstr("r2: of = 4"), HasSubstr("lacks: 1 of 3")));
-  spoilt = shards;
-  spoilt[1].result.flags = " --vehicles 3";
-  EXPECT_THAT(Refusal(spoilt), HasSubstr("r1: has the plan of r0, but another"));
-  spoilt = shards;
-  spoilt[1].result.generators[0].runs += 1;
-  EXPECT_THAT(Refusal(spoilt), HasSubstr("the plan has 69"));
+  edited[1].result = PretendedShard(other, {1, 3});
+  EXPECT_THAT(Refusal(edited), AllOf(HasSubstr("r1: plan = "), HasSubstr("in r0")));
+  edited = shards;
+  edited[2].result.program = "ffff";
+  EXPECT_THAT(Refusal(edited), AllOf(HasSubstr("r2: program = ffff"), HasSubstr("in r0")));
+  edited = shards;
+  edited[2].result = PretendedShard(SmallCampaign(), {2, 4});
+  EXPECT_THAT(Refusal(edited), AllOf(HasSubstr("r2: of = 4"), HasSubstr("missing: 1 of 3")));
+  edited = shards;
+  edited[1].result.flags = " --vehicles 3";
+  EXPECT_THAT(Refusal(edited), HasSubstr("r1: has the plan of r0, but another"));
+  edited = shards;
+  edited[1].result.generators[0].runs += 1;
+  EXPECT_THAT(Refusal(edited), HasSubstr("the plan has 69"));
 }
 
 TEST(CampaignIdentity, IsOfWhatDecidesARun) {

@@ -74,6 +74,7 @@ TEST(CampaignResults, SaysWhatIsNoFileOfResults) {
   EXPECT_THAT(ResultsIn(folder.Path() + "/none").problems, HasSubstr("does not exist"));
   EXPECT_THAT(ResultsIn(folder.Path()).problems, HasSubstr("is a directory"));
   EXPECT_THAT(ResultsIn("/dev/zero").problems, HasSubstr("is no regular file"));
+  EXPECT_THAT(ResultsIn("/proc/self/mem").problems, HasSubstr("cannot be read to its end"));
 }
 
 }  // namespace

@@ -55,6 +55,7 @@ inline HostFacts HealthyHost() {
   host.interfaces = {loopback};
   host.receive_buffer_max = 4'194'304;
   host.ports = {{9150, 9162, 9163, 9164, 9165}};  // those of the two, and of the group
+  host.tool_ports.emplace();
   host.ephemeral = PortRange{32768, 60999};
   host.open_files_limit = 1024;
   host.surroundings = {{"/home/me", "this shell", {"HOME=/home/me"}, {"notes.txt"}}};

@@ -102,6 +102,18 @@ TEST(Doctor, FindsSharedMemoryWithoutRoomForAll) {
   EXPECT_THAT(RulesOf(host), IsEmpty());
 }
 
+TEST(Doctor, CountsTheSegmentsOfOtherFleetsForNoneOfThisOne) {
+  HostFacts host = HealthyHost();
+  host.vehicles = 90;
+  host.memory.free_bytes = 50'000'000;
+  for (int i = 0; i < 90; ++i) {
+    host.processes.push_back(Vehicle(3 + static_cast<std::uint32_t>(i)));
+    host.processes.back().launch.domain = 9;
+    host.processes.back().profiles = SetWith();  // nor does it use shared memory
+  }
+  EXPECT_THAT(RulesOf(host), testing::Contains("memory_small"));
+}
+
 TEST(Doctor, FindsAHostsNetworkWithoutItsSharedMemory) {
   HostFacts host = HealthyHost();
   host.processes[1].shared_memory = FileIdentity{23, 1};
@@ -151,6 +163,9 @@ TEST(Doctor, FindsMulticastThatDoesNotComeBack) {
   host.interfaces[0].echoes_multicast = false;
   EXPECT_EQ(Only(host).rule, "multicast_missing");
   EXPECT_EQ(Only(host).severity, qos::Severity::kError);
+  host.planned.launch.discovery_servers = {{"192.0.2.1"}};
+  EXPECT_THAT(RulesOf(host), IsEmpty()) << "a discovery server needs none";
+  host.planned.launch.discovery_servers.clear();
   host.planned.profiles = SetWith(
       "<builtin><discovery_config><discoveryProtocol>CLIENT</discoveryProtocol>"
       "</discovery_config></builtin>",
@@ -192,6 +207,18 @@ TEST(Doctor, FindsPortsThatSomebodyElseHolds) {
   host.domains = {7};
   host.processes[1].ports.reset();
   EXPECT_THAT(RulesOf(host), IsEmpty()) << "they may be those of the second vehicle";
+}
+
+// `fleetctl run` was called a stranger in its own fleet, and the remedy was to end it.
+TEST(Doctor, TakesToolsThatJoinFleetsForNoStrangers) {
+  HostFacts host = HealthyHost();
+  host.ports->insert(host.ports->end(), {9170, 9171});
+  host.tool_ports = {{9170}};
+  EXPECT_THAT(Only(host).values, HasSubstr("1 UDP port of it: 9171"));
+  host.tool_ports = {{9170, 9171}};
+  EXPECT_THAT(RulesOf(host), IsEmpty());
+  host.tool_ports.reset();
+  EXPECT_THAT(RulesOf(host), IsEmpty()) << "which are theirs is not known";
 }
 
 TEST(Doctor, FindsTooFewParticipantIds) {

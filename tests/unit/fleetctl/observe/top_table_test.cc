@@ -158,7 +158,8 @@ TEST(TopJson, SaysWhatThePacketFilterDroppedAndWhatSamplesWereRefused) {
           R"("dropped_unknown_kind":103,"dropped_statistics":104,"dropped_malformed":105,)"
           R"("dropped_list_too_long":106,"dropped_sample_too_large":107,)"
           R"("dropped_range_too_long":108,"dropped_sequence_jump":109,)"
-          R"("dropped_too_many_strangers":110,"dropped_fragmented_announcement":111},"refused":{"unbound_samples":1,)"
+          R"("dropped_too_many_strangers":110,"dropped_fragmented_announcement":111,)"
+          R"("dropped_too_many_endpoints":112},"refused":{"unbound_samples":1,)"
           R"("unreadable_samples":2,"wrong_name_scans":3,"old_world_entries":4,"strangers":5,)"
           R"("implausible":6})"));
 }
@@ -173,6 +174,24 @@ TEST(TopJson, NumbersThatJsonCannotSayAreLeftOut) {
   EXPECT_THAT(json, Not(HasSubstr("nan")));
   EXPECT_THAT(json, Not(HasSubstr("inf\"")));
   EXPECT_THAT(json, Not(HasSubstr("forward_m_s")));
+}
+
+// Its title was "no world heard".
+TEST(TopTable, AWorldWithoutVehiclesIsHeardUntilItIsGone) {
+  FleetSnapshot fleet;
+  fleet.Fold({.world = 5}, seconds(1));
+  EXPECT_THAT(TopLines(fleet, Post(), seconds(9), kWide)[0], HasSubstr("world without vehicles"));
+  EXPECT_THAT(TopLines(fleet, Post(), seconds(9), kWide).back(),
+              Not(HasSubstr("nothing received")));
+  EXPECT_THAT(TopJson(fleet, Post(), seconds(9)), HasSubstr(R"("world":{"heard":true)"));
+  fleet.Fold({}, seconds(10));
+  EXPECT_THAT(TopLines(fleet, Post(), seconds(10), kWide)[0], HasSubstr("no world heard"));
+  EXPECT_THAT(TopJson(fleet, Post(), seconds(10)), HasSubstr(R"("world":{"heard":false)"));
+}
+
+TEST(TopJson, AWorldThatFellSilentIsNoLongerHeard) {
+  EXPECT_THAT(TopJson(FleetOf(1), Post(), seconds(15)),
+              HasSubstr(R"("world":{"heard":false,"epoch":7,"state":"running","silent":true)"));
 }
 
 TEST(TopJson, NobodyIsAnEmptyListAndNoWorld) {

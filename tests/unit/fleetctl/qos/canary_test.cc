@@ -65,5 +65,28 @@ TEST(Canary, WithoutAnyRestToCompareItWithIsNotPromoted) {
   EXPECT_THAT(WhyWorse(Figures(0, 0, 600, 30), {}), HasSubstr("no other vehicle"));
 }
 
+// The last reports of the process before the restart ended the wait, and the trial started while
+// the canary still looked for its peers.
+TEST(Canary, HearsAgainOnlyByWhatItsNewProcessSays) {
+  const VehicleId canary{3};
+  const auto status = [&](std::uint32_t sent, std::uint32_t taken) {
+    VehicleStatus one;
+    one.vehicle = canary;
+    one.beacons.sent = sent;
+    one.beacons.taken = taken;
+    return one;
+  };
+  SeenVehicles seen;
+  EXPECT_FALSE(seen.Hears(canary, false));
+  seen.Add(status(1000, 500), SteadyTime(1));
+  EXPECT_TRUE(seen.Hears(canary, false));
+  seen.Add(status(1004, 504), SteadyTime(2));
+  EXPECT_FALSE(seen.Hears(canary, true));
+  seen.Add(status(2, 0), SteadyTime(3));
+  EXPECT_FALSE(seen.Hears(canary, true));
+  seen.Add(status(6, 1), SteadyTime(4));
+  EXPECT_TRUE(seen.Hears(canary, true));
+}
+
 }  // namespace
 }  // namespace giveway::fleetctl

@@ -173,6 +173,22 @@ TEST(ComparedSoaks, ALeakIsFoundByItsProcess) {
                     Contains("vehicle-3 private_bytes an hour"), Not(Contains(HasSubstr("-4")))));
 }
 
+// The memory of a process fills up in its first minutes: a short life seemed to leak.
+TEST(ComparedSoaks, LivesThatAreShortOrOfOtherLengthsAreNotTested) {
+  SoakResult after = SampleSoak(2);
+  Random random(9);
+  after.slopes[2] = SampleSlope("vehicle-3", &random, 1500);
+  const std::string name = "vehicle-3 private_bytes an hour";
+  EXPECT_THAT(Worse(SampleSoak(1), after), Contains(name));
+  SoakResult before = SampleSoak(1);
+  before.slopes[2].slope.spans_s = after.slopes[2].slope.spans_s = kLeastLeakSpan_s - 1;
+  EXPECT_THAT(Worse(before, after), Not(Contains(name)));
+  EXPECT_THAT(Changed(Compare(before, after), Change::kUntested), Contains(name));
+  after.slopes[2].slope.spans_s = 600;
+  EXPECT_THAT(Changed(Compare(SampleSoak(1), after), Change::kUntested), Contains(name));
+  EXPECT_THAT(Changed(Compare(after, SampleSoak(1)), Change::kUntested), Contains(name));
+}
+
 TEST(ComparedSoaks, LaterDetectionAndRecoveryAreFoundByKind) {
   SoakResult after = SampleSoak(2);
   for (SoakFault& fault : after.faults) {
@@ -194,6 +210,24 @@ TEST(ComparedSoaks, FaultsThatNoLongerHaveAnEffectAreFound) {
     if (!fault.observed) fault.observed_how = "there was nothing to act on";
   }
   EXPECT_THAT(Worse(SampleSoak(1), after), IsEmpty());
+}
+
+// The first 5000 of a longer list are alike, whatever came later.
+TEST(ComparedSoaks, FaultsThatAreNotAllListedAreNotTested) {
+  SoakResult after = SampleSoak(1);
+  after.faults_counted = after.faults.size();
+  EXPECT_THAT(Changed(Compare(SampleSoak(1), after), Change::kUntested), IsEmpty());
+  after.faults_counted = 9000;
+  for (const auto& [one, two] :
+       {std::pair(SampleSoak(1), after), std::pair(after, SampleSoak(1))}) {
+    const SoakComparison comparison = Compare(one, two);
+    EXPECT_THAT(
+        Changed(comparison, Change::kUntested),
+        ElementsAre("kill, noticed after", "kill, recovered after", "kill, noticed late",
+                    "kill, without effect", "pause, noticed after", "pause, recovered after",
+                    "pause, noticed late", "pause, without effect"));
+    EXPECT_THAT(ToText(comparison, false), HasSubstr("untested: not all faults are listed"));
+  }
 }
 
 void Violate(SoakResult* result, int times, double every_s) {
@@ -270,6 +304,17 @@ TEST(ComparedSoaks, AVerdictThatFellIsWorseWithoutATest) {
   EXPECT_TRUE(comparison.AnyWorse());
   EXPECT_EQ(comparison.figures[0].what, "verdict");
   EXPECT_FALSE(comparison.figures[0].p);
+}
+
+// A nightly soak that was cut off in its first minute passed as equal to the last whole one.
+TEST(ComparedSoaks, OneThatWasInterruptedIsNotEqualToOneThatPassed) {
+  SoakResult after = SampleSoak(1);
+  after.verdict = SoakVerdict::kInterrupted;
+  after.ran_s = 1;
+  after.near_misses_counted = 0;
+  const SoakComparison comparison = Compare(SampleSoak(1), after);
+  EXPECT_TRUE(comparison.AnyWorse());
+  EXPECT_THAT(Changed(comparison, Change::kUntested), Contains("near misses"));
 }
 
 TEST(ComparedSoaks, SamplesNotAccountedForAreWorseWithoutATest) {

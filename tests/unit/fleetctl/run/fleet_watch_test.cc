@@ -95,6 +95,17 @@ TEST_F(FleetWatchTest, DeathOverrulesAWorldThatSaysPassed) {
   EXPECT_EQ(report.min_separation_m, 0.42);
 }
 
+TEST_F(FleetWatchTest, APictureShowsTheReportsVerdictWhereTheWorldSaysPassed) {
+  WorldEvent passed = Event(EventKind::kVerdict);
+  passed.value = 1;
+  watch_.Fold(Events({passed}));
+  Report report = watch_.MakeReport(std::nullopt);
+  report.verdict = Verdict::kFailed;
+  report.reason = "invariant_broken: yielding";
+  EXPECT_THAT(watch_.DrawPicture(report), testing::HasSubstr(">failed<"));
+  EXPECT_THAT(watch_.DrawPicture(report), testing::HasSubstr(">invariant broken: yielding<"));
+}
+
 TEST_F(FleetWatchTest, HaltedAndArrivedAreSetsInOrder) {
   watch_.Fold(Events({Event(EventKind::kHalted, kTwo), Event(EventKind::kResumed, kTwo),
                       Event(EventKind::kHalted, kTwo), Event(EventKind::kArrived, kTwo),
@@ -124,6 +135,25 @@ TEST_F(FleetWatchTest, NewestStatusOfEachVehicleIsSummed) {
   EXPECT_EQ(report.trust.jumps, 8U);
   EXPECT_EQ(report.trust.impossible_speeds, 10U);
   EXPECT_EQ(report.trust.Total(), 30U);
+}
+
+TEST_F(FleetWatchTest, EveryLifeOfARestartedVehicleCounts) {
+  link::Observed observed;
+  observed.statuses = {Status(kOne, 10, false), Status(kOne, 40, false), Status(kOne, 6, false),
+                       Status(kOne, 8, true),   Status(kOne, 20, false), Status(kTwo, 20, true)};
+  watch_.Fold(observed);
+  const Report report = watch_.MakeReport(std::nullopt);
+  EXPECT_EQ(report.beacons_sent, 40U + 8U + 20U + 20U);
+  EXPECT_EQ(report.beacons_received, 44U);
+  EXPECT_EQ(report.deadline_missed, 4U);
+  EXPECT_EQ(report.trust.beacon_without_echo, 4U);
+}
+
+TEST_F(FleetWatchTest, SumsOfAFleetMayPassThirtyTwoBits) {
+  link::Observed observed;
+  observed.statuses = {Status(kOne, 3'000'000'000, true), Status(kTwo, 3'000'000'000, true)};
+  watch_.Fold(observed);
+  EXPECT_EQ(watch_.MakeReport(std::nullopt).beacons_sent, 6'000'000'000U);
 }
 
 TEST_F(FleetWatchTest, LastSeenStatusOfAKilledVehicleCountsAndIsNotWaitedFor) {

@@ -55,6 +55,29 @@ TEST(RunEnds, OfAnOpenFleetOnlyTheWorldCanEndBadly) {
   EXPECT_FALSE(IsGoodEnd({kTheWorld, kKilled, false}, kOpen));
 }
 
+// A crash, or a hang, at the end of a soak was no end that counted.
+TEST(RunEnds, OneThatIsAskedToStopLeavesWithCodeZero) {
+  constexpr ProcessEnd kTookTooLong{false, 128 + SIGTERM};
+  EXPECT_TRUE(HasLeft({kVehicle, kLeft, false}));
+  EXPECT_TRUE(HasLeft({kVehicle, kKilled, true})) << "as planned";
+  EXPECT_FALSE(HasLeft({kVehicle, kFailed, false}));
+  EXPECT_FALSE(HasLeft({kVehicle, kTookTooLong, false}));
+  EXPECT_FALSE(HasLeft({kVehicle, {true, SIGSEGV}, false}));
+  EXPECT_FALSE(HasLeft({kVehicle, kKilled, false})) << "it had to be";
+  EXPECT_TRUE(HasLeft({kTheWorld, kLeft, false}));
+  EXPECT_TRUE(HasLeft({kTheWorld, kFailed, false})) << "that is its verdict";
+  EXPECT_FALSE(HasLeft({kTheWorld, {false, 2}, false}));
+  EXPECT_FALSE(HasLeft({kTheWorld, {true, SIGABRT}, false}));
+}
+
+TEST(RunEnds, ADiscoveryServerMayBeEndedByTheSignalThatAsksIt) {
+  constexpr MemberId kServer{MemberKind::kDiscoveryServer, 1};
+  EXPECT_TRUE(HasLeft({kServer, kLeft, false}));
+  EXPECT_TRUE(HasLeft({kServer, {true, SIGTERM}, false}));
+  EXPECT_FALSE(HasLeft({kServer, kKilled, false}));
+  EXPECT_FALSE(HasLeft({kVehicle, {true, SIGTERM}, false}));
+}
+
 TEST(RunEnds, TheWorldsExitCodeIsAVerdict) {
   EXPECT_TRUE(IsGoodEnd({kTheWorld, kFailed, false}, kClosed));
   EXPECT_TRUE(IsGoodEnd({kTheWorld, kFailed, false}, kOpen));

@@ -36,6 +36,19 @@ TEST(FleetCourse, TakesForHealedOnlyWhoReportsAfterTheLastFaultThatItDrives) {
   EXPECT_DOUBLE_EQ(*seen.healing.at(kHealed), 0.5);
 }
 
+// A kill was the last fault, and the process had not ended when healing started.
+TEST(FleetCourse, ExpectsNothingOfOneThatIsGone) {
+  bool gone = false;
+  SoakWatch watch({kHealed}, {});
+  FleetCourse course({kHealed}, Never, [&](VehicleId) { return gone; });
+  SoakSeen seen;
+  course.SeekHealing(watch, seconds(10), &seen);
+  gone = true;
+  course.SeekHealing(watch, seconds(20), &seen);
+  EXPECT_TRUE(seen.healing.empty());
+  EXPECT_TRUE(seen.silent_s.empty());
+}
+
 TEST(FleetCourse, KnowsForHowLongNothingWasReportedAfterTheLastFault) {
   SoakWatch watch({kHealed}, {});
   FleetCourse course({kHealed}, Never, Never);

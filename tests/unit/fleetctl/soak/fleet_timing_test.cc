@@ -15,6 +15,7 @@ class Life {
   Life& Add(DriveFigure figure, std::uint32_t value) {
     FigureSummary& kept = status_.timing.figures[static_cast<std::size_t>(figure)];
     kept.newest[kept.count++ % FigureSummary::kNewest] = value;
+    kept.max = std::max(kept.max, value);
     return *this;
   }
   Life& Spend(double reaction_m, double free_m) {
@@ -90,6 +91,22 @@ TEST(FleetTiming, CountsWhatNoReportToldOf) {
   EXPECT_EQ(timing.Missed(), 5U);
   EXPECT_EQ(Named(timing, "turn").histogram.Count(), FigureSummary::kNewest);
   EXPECT_EQ(Named(timing, "turn").histogram.Min(), 5000);
+}
+
+// At ticks below 12.5 ms more values come between two reports than one report holds.
+TEST(FleetTiming, AStaleDecisionCountsThoughItIsNotAmongTheNewest) {
+  FleetTiming timing(milliseconds(200));
+  Life one;
+  one.Add(DriveFigure::kBeaconAge, 300'000);
+  for (std::uint32_t i = 0; i <= FigureSummary::kNewest; ++i) one.Add(DriveFigure::kBeaconAge, 50);
+  timing.Fold(one.Status(3), 1);
+  EXPECT_EQ(timing.Stale().at(VehicleId{3}).oldest, milliseconds(300));
+  EXPECT_EQ(Named(timing, "beacon_age").histogram.Max(), 300'000'000);
+  EXPECT_EQ(timing.Missed(), 1U);
+  for (std::uint32_t i = 0; i <= FigureSummary::kNewest; ++i) one.Add(DriveFigure::kBeaconAge, 50);
+  timing.Fold(one.Status(3), 2);
+  EXPECT_EQ(timing.Stale().at(VehicleId{3}).count, 1U) << "the largest of both reports";
+  EXPECT_EQ(timing.Missed(), 2U);
 }
 
 TEST(FleetTiming, BeginsAnewWithAnotherLife) {

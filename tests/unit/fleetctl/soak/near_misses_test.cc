@@ -13,14 +13,14 @@ constexpr VehicleId kRight{2};
 NearMisses OfTwo() { return NearMisses({{kLeft, 0.25}, {kRight, 0.25}}); }
 
 // Both at one time, `gap_m` shell to shell along x.
-void At(double time_s, double gap_m, NearMisses* misses) {
+void At(double time_s, double gap_m, NearMisses* misses, double lag_s = 0) {
   Truth left;
   left.vehicle = kLeft;
   left.time_s = time_s;
   Truth right = left;
   right.vehicle = kRight;
   right.world_from_body.position_world.x = 0.5 + gap_m;
-  misses->Fold(std::vector<Truth>{left, right});
+  misses->Fold(std::vector<Truth>{left, right}, lag_s);
 }
 
 TEST(NearMisses, CountAnEncounterOnceAtItsNarrowest) {
@@ -32,6 +32,13 @@ TEST(NearMisses, CountAnEncounterOnceAtItsNarrowest) {
   At(9, 0.1, &misses);
   EXPECT_EQ(misses.Count(), 2U);
   EXPECT_THAT(misses.Narrowest(), SizeIs(2));
+}
+
+// A world that was gone came back with a time that lags, and its near misses were listed too early.
+TEST(NearMisses, HaveTheTimeOfTheSoakAndNotOfTheWorld) {
+  NearMisses misses = OfTwo();
+  At(5, 0.1, &misses, 2.5);
+  EXPECT_EQ(misses.Narrowest().front().time_s, 7.5);
 }
 
 TEST(NearMisses, AreNotMadeOfWhoPassesFartherAway) {

@@ -113,7 +113,7 @@ TEST(ResourcesOverTime, ARestartBeginsAnotherLifeWithItsOwnWarmUp) {
     EXPECT_EQ(row->slope.per_hour, 0);
     EXPECT_EQ(row->slope.samples, 90U);
   }
-  EXPECT_EQ(series.LivesTooShort(), 0U);
+  EXPECT_EQ(series.LivesTooShort(), 2U) << "one that ended, and one that lives";
 }
 
 TEST(ResourcesOverTime, AShortLifeIsCountedAndNotJudged) {
@@ -158,6 +158,9 @@ TEST(ResourcesOverTime, OfALifeOfLessThanTwoMinutesNoGrowthIsALeak) {
   ResourceSeries series(0);
   for (int t = 0; t < 119; ++t) series.Add("vehicle-1", t, Using(t, 2e7 + 1e4 * t));
   for (const ResourceSlope& row : series.Slopes()) EXPECT_FALSE(row.leak);
+  EXPECT_EQ(series.LivesTooShort(), 1U);
+  for (int t = 119; t < 125; ++t) series.Add("vehicle-1", t, Using(t, 2e7));
+  EXPECT_EQ(series.LivesTooShort(), 0U);
 }
 
 // A hundred flat series with noise: one in forty seems to grow, and none is called a leak.

@@ -18,7 +18,7 @@ faults::Fault Pause(const char* rule, double at_s, double for_s) {
 
 std::vector<std::string> RulesAround(const faults::Schedule& schedule, double time_s) {
   std::vector<std::string> rules;
-  for (const faults::Fault& fault : Around(schedule, time_s)) rules.push_back(fault.rule);
+  for (const faults::Fault& fault : Around(schedule, {}, time_s)) rules.push_back(fault.rule);
   return rules;
 }
 
@@ -36,7 +36,20 @@ TEST(SoakAround, KeepsWhoWasKilledLongBefore) {
 }
 
 TEST(SoakAround, LeavesTheTimesAsTheyWere) {
-  EXPECT_EQ(Around({Pause("in", 90, 1)}, 100).at(0).at_s, 90);
+  EXPECT_EQ(Around({Pause("in", 90, 1)}, {}, 100).at(0).at_s, 90);
+}
+
+// The world's time stands while it is gone: its faults start later than planned.
+TEST(SoakAround, GoesByWhenAFaultReallyStarted) {
+  faults::Fault off = Pause("sonar", 20, 2);
+  off.kind = faults::Kind::kSonarOff;
+  SoakFault observed{.rule = "sonar", .at_s = 20};
+  EXPECT_TRUE(Around({off}, {observed}, 100).empty());
+  observed.observed_s = 95;
+  const faults::Schedule around = Around({off}, {observed}, 100);
+  ASSERT_EQ(around.size(), 1U);
+  EXPECT_EQ(around[0].at_s, 20) << "as planned";
+  EXPECT_TRUE(Around({off}, {observed}, 80).empty());
 }
 
 }  // namespace

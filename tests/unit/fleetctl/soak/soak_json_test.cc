@@ -25,6 +25,7 @@ TEST(SoakReportJson, ComesBackAsItWas) {
   result.verdict = SoakVerdict::kFailed;
   result.reasons = {"vehicle-3 leaks", "2 contacts"};
   result.skipped_faults = {"clock_step: faketime is not installed"};
+  result.skipped_counted = 12;
   result.violations = {{12.5, VehicleId{3}, VehicleId{4}, "contact", "touched", "stop#1"}};
   result.violations_counted = 7;
   result.budget_spent_by_block = {0, 3};
@@ -36,6 +37,7 @@ TEST(SoakReportJson, ComesBackAsItWas) {
   ASSERT_EQ(read.complaint, "");
   EXPECT_EQ(ToJson(read.result), json);
   EXPECT_EQ(read.result.verdict, SoakVerdict::kFailed);
+  EXPECT_EQ(read.result.skipped_counted, 12U);
   EXPECT_EQ(read.result.faults[3].noticed_after_s.has_value(), true);
   EXPECT_EQ(read.result.histograms[1].histogram, result.histograms[1].histogram);
   EXPECT_EQ(read.result.histograms[1].blocks, result.histograms[1].blocks);
@@ -46,6 +48,20 @@ TEST(SoakReportJson, ComesBackAsItWas) {
   EXPECT_EQ(read.result.narrowest_margin->vehicle, VehicleId{3});
   EXPECT_EQ(read.result.accounting[0].Difference(), 0);
   EXPECT_TRUE(read.result.slopes.back().leak);
+}
+
+TEST(SoakReportJson, OfAnOlderReportEachSkippedFaultHasALine) {
+  SoakResult result = SampleSoak(1);
+  result.skipped_faults = {"a#0: no", "a#1: no"};
+  const std::string json = Replaced(ToJson(result), ",\"skipped_counted\":0", "");
+  ASSERT_EQ(SoakFromJson(json).complaint, "");
+  EXPECT_EQ(SoakFromJson(json).result.skipped_counted, 2U);
+}
+
+TEST(SoakReportJson, ListsAreCutWhereTheyGetTooLong) {
+  SoakResult result = SampleSoak(1);
+  result.skipped_faults.assign(kMostListed + 1, "a#0: no");
+  EXPECT_EQ(SoakFromJson(ToJson(result)).result.skipped_faults.size(), kMostListed);
 }
 
 TEST(SoakReportJson, NamesEachKindOfResource) {

@@ -53,6 +53,27 @@ TEST(SoakPage, AFaultThatHadNothingToActOnIsNotMissing) {
   EXPECT_THAT(SummaryOf(result)[1].text, Not(HasSubstr("nothing to act on")));
 }
 
+// After an interrupt they were shown as faults without an effect.
+TEST(SoakPage, AFaultThatNeverStartedIsNotMissing) {
+  SoakResult result = SampleSoak(1);
+  result.faults[0].observed = false;
+  result.faults[0].observed_how.clear();
+  result.faults[0].observed_s.reset();
+  EXPECT_THAT(SummaryOf(result)[1].text,
+              HasSubstr("23 of 24 seen by their effect, 0 skipped, 1 not "
+                        "started"));
+  EXPECT_THAT(ToHtml(result, {}), AllOf(HasSubstr(">not started<"), Not(HasSubstr(">NO<"))));
+  EXPECT_EQ(SummariesOf(result.faults)[1].missing, 0U);
+}
+
+TEST(SoakPage, SaysOfHowManyLivesNoGrowthWasJudged) {
+  SoakResult result = SampleSoak(1);
+  EXPECT_THAT(ToText(result), HasSubstr("no leak in 9 slopes\n"));
+  for (std::size_t i = 0; i < 4; ++i) result.slopes[i].slope.spans_s = 90;
+  result.lives_too_short = 4;
+  EXPECT_THAT(ToText(result), HasSubstr("no leak in 5 slopes; 4 lives too short to judge"));
+}
+
 TEST(SoakPage, LeadsToThePagesOfItsBlackBox) {
   SoakResult result = SampleSoak(1);
   result.kept_rings = {{12, 3, 3, "recordings/black-box-1.html"},
@@ -116,6 +137,14 @@ TEST(SoakSummary, NoLineIsLongerThanATerminal) {
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 78U) << line;
   EXPECT_THAT(text, AllOf(HasSubstr("FAILED"), HasSubstr("after stop#1"), HasSubstr("and 11 more"),
                           HasSubstr("beacon_age"), HasSubstr("most 200.0 ms: kept")));
+}
+
+TEST(SoakSummary, SaysHowManyValuesAreMissing) {
+  SoakResult result = SampleSoak(1);
+  EXPECT_THAT(ToText(result), Not(HasSubstr("values lost")));
+  result.timing_values_lost = 41;
+  EXPECT_THAT(ToText(result), HasSubstr("values lost       41 of the figures"));
+  EXPECT_THAT(ToHtml(result, {}), HasSubstr("41 of the figures"));
 }
 
 TEST(SoakSummary, FaultsAreSummedByKind) {

@@ -26,20 +26,66 @@ faults::Fault Beginning(const char* rule, double at_s) {
   return fault;
 }
 
-TEST(SoakResume, SavingTakesAHundredthOfTheTimeAtMost) {
+TEST(SoakResume, SavingTakesAFiveHundredthOfTheTimeAtMost) {
   EXPECT_EQ(UntilNextSave(std::chrono::milliseconds(5)), std::chrono::seconds(10));
-  EXPECT_EQ(UntilNextSave(std::chrono::milliseconds(300)), std::chrono::seconds(30));
+  EXPECT_EQ(UntilNextSave(std::chrono::milliseconds(60)), std::chrono::seconds(30));
 }
 
 TEST(SoakResume, TheRestOfAListIsByTheNewFleetsClock) {
-  std::vector<std::string> lost;
+  SkippedFaults lost;
+  SoakResult so_far;
+  so_far.ran_s = 100;
   const faults::Schedule rest = RestOf(
-      {Beginning("before", 90), Beginning("lost", 105), Beginning("left", 130)}, 100, 12, &lost);
+      {Beginning("before", 90), Beginning("lost", 105), Beginning("left", 130)}, so_far, 12, &lost);
   ASSERT_THAT(rest, SizeIs(1));
   EXPECT_EQ(rest[0].rule, "left");
   EXPECT_EQ(rest[0].at_s, 30);
-  ASSERT_THAT(lost, SizeIs(1));
-  EXPECT_THAT(lost[0], HasSubstr("lost#0 at 105.0 s"));
+  ASSERT_THAT(lost.Lines(), SizeIs(1));
+  EXPECT_THAT(lost.Lines()[0], HasSubstr("lost#0 (kill of vehicle 0 at 105.0 s): fell into"));
+}
+
+SoakFault OfWorld(const char* rule, double at_s, std::optional<double> started_s) {
+  SoakFault fault{.rule = rule, .at_s = at_s, .kind = "sonar_off", .target = "vehicle 1"};
+  fault.observed = started_s.has_value();
+  fault.observed_s = started_s;
+  return fault;
+}
+
+// They were neither carried out nor listed.
+TEST(SoakResume, WhatAWorldThatLaggedHadStillToCarryOutIsLeftOut) {
+  SoakResult so_far;
+  so_far.ran_s = 100;
+  so_far.faults = {OfWorld("came", 90, 95), OfWorld("awaited", 98, std::nullopt),
+                   OfWorld("left", 130, std::nullopt)};
+  so_far.faults_counted = 3;
+  faults::Schedule whole{Beginning("came", 90), Beginning("awaited", 98), Beginning("left", 130)};
+  for (faults::Fault& fault : whole) fault.kind = faults::Kind::kSonarOff;
+  SkippedFaults lost;
+  EXPECT_THAT(RestOf(whole, so_far, 12, &lost), SizeIs(1));
+  ASSERT_THAT(lost.Lines(), SizeIs(1));
+  EXPECT_THAT(lost.Lines()[0], HasSubstr("awaited#0"));
+  EXPECT_THAT(lost.Lines()[0], HasSubstr("the world's time lagged"));
+  SoakResult rest;
+  rest.ran_s = 80;
+  rest.faults = {OfWorld("left", 30, 30)};
+  rest.faults_counted = 1;
+  rest.skipped_counted = lost.Count();
+  const SoakResult joined = Joined(so_far, rest);
+  EXPECT_THAT(joined.faults, SizeIs(2));
+  EXPECT_EQ(joined.faults_counted, 2U) << "of which the summary says how many were seen";
+}
+
+TEST(SoakResume, OneThatWasActiveAsTheSoakDiedSaysSo) {
+  SoakResult so_far;
+  so_far.ran_s = 100;
+  so_far.faults = {{.rule = "stop", .at_s = 95, .kind = "pause", .target = "vehicle 1"}};
+  const SoakResult joined = Joined(so_far, SoakResult{});
+  ASSERT_THAT(joined.faults, SizeIs(1));
+  EXPECT_THAT(joined.faults[0].observed_how, HasSubstr("active as the soak died"));
+}
+
+TEST(SoakResume, PlannedRestartsAreThoseOfBothLegs) {
+  EXPECT_EQ(Joined(SampleSoak(1), SampleSoak(2)).restarts_planned, 24U);
 }
 
 TEST(SoakResume, TwoLegsAreOneSoak) {
@@ -50,6 +96,8 @@ TEST(SoakResume, TwoLegsAreOneSoak) {
   rest.ran_s = 180;
   first.supervisor_cpu_share = 0.14;
   rest.supervisor_cpu_share = 0.28;
+  first.skipped_counted = 4;
+  rest.skipped_counted = 3;
   first.budget_spent = 1;
   rest.budget_spent = 2;
   rest.narrowest_margin->share_left = 0.1;
@@ -66,6 +114,7 @@ TEST(SoakResume, TwoLegsAreOneSoak) {
   EXPECT_EQ(joined.near_misses_counted, 60U);
   EXPECT_EQ(joined.near_misses.back().time_s, rest.near_misses.back().time_s + 100);
   EXPECT_EQ(joined.budget_spent, 3U);
+  EXPECT_EQ(joined.skipped_counted, 7U);
   EXPECT_DOUBLE_EQ(joined.supervisor_cpu_share.value_or(0), 0.23);
   EXPECT_EQ(joined.block_s, 0);  // those of two legs are of different lengths
   EXPECT_TRUE(joined.near_misses_by_block.empty());

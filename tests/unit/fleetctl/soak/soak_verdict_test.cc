@@ -36,16 +36,13 @@ class SoakVerdictTest : public testing::Test {
   }
   SoakResult Judged() const {
     SoakResult result;
-    EvaluateSoak({seen_, schedule_, limits_, [this](SteadyTime, SteadyTime) { return pause_; },
-                  true, fleet_},
-                 &result);
+    EvaluateSoak({seen_, schedule_, limits_, true, fleet_}, &result);
     return result;
   }
 
   faults::Schedule schedule_;
   SoakSeen seen_;
   Limits limits_;
-  Nanoseconds pause_{0};
   std::vector<VehicleId> fleet_;
 };
 
@@ -91,7 +88,9 @@ TEST_F(SoakVerdictTest, TellsWhyAFaultCouldNotBeInjectedOrUndone) {
 TEST_F(SoakVerdictTest, FailsWhereNobodyNoticedOrTooLate) {
   Noticed() = seconds(14);
   EXPECT_EQ(Judged().violations.at(0).invariant, "detection");
-  pause_ = seconds(5);
+  seen_.courses[0].paused[static_cast<std::size_t>(Mechanism::kLiveliness)] = seconds(5);
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kFailed) << "that was later";
+  seen_.courses[0].paused[static_cast<std::size_t>(Mechanism::kDeadline)] = seconds(5);
   EXPECT_EQ(Judged().verdict, SoakVerdict::kPassed) << "the machine stalled meanwhile";
   Noticed().reset();
   EXPECT_THAT(Judged().violations.at(0).words, HasSubstr("no peer noticed"));
@@ -157,6 +156,23 @@ TEST_F(SoakVerdictTest, FailsWhereABeaconIsNotAccountedFor) {
   EXPECT_EQ(result.accounting[0].Difference(), 2);
 }
 
+// A report lists 5000 pairs.
+TEST_F(SoakVerdictTest, APairThatDiffersIsListedFirstWhereThereAreTooMany) {
+  VehicleStatus status;
+  BeaconAccount account{.writer = kOne, .first = 1, .last = 5, .accepted = 5};
+  for (std::uint32_t reader = 2; reader < kMostListed + 3; ++reader) {
+    status.vehicle = VehicleId{reader};
+    account.lost = reader == kMostListed + 2 ? 1 : 0;
+    status.accounts = {account};
+    seen_.accounting.Fold(status);
+  }
+  const SoakResult result = Judged();
+  EXPECT_THAT(result.accounting, SizeIs(kMostListed + 1));
+  EXPECT_EQ(result.accounting.at(0).Difference(), -1);
+  EXPECT_EQ(result.accounting.at(1).reader, "vehicle 2");
+  EXPECT_EQ(result.violations.at(0).invariant, "accounting");
+}
+
 TEST_F(SoakVerdictTest, DoesNotJudgeAFaultThatNeverBegan) {
   seen_.courses[0] = {};
   EXPECT_EQ(Judged().verdict, SoakVerdict::kPassed);
@@ -174,6 +190,50 @@ TEST_F(SoakVerdictTest, OneThatIsNoLongerHeardFailsItThoughItDroveAfterTheLastFa
   EXPECT_TRUE(Judged().violations.empty());
   seen_.silent_s[kTwo] = 5.1;
   EXPECT_EQ(Judged().violations.at(0).invariant, "silent");
+}
+
+// It passed: healing was never sought, and what had not come was not missed.
+TEST_F(SoakVerdictTest, AWorldWhoseTimeStandsUntilTheEndFailsIt) {
+  faults::Fault off;
+  off.kind = faults::Kind::kSonarOff;
+  schedule_.push_back(off);
+  seen_.courses.emplace_back();
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kPassed);
+  seen_.world_stood_from_s = 12;
+  const SoakResult result = Judged();
+  EXPECT_EQ(result.verdict, SoakVerdict::kFailed);
+  ASSERT_THAT(result.violations, SizeIs(1));
+  EXPECT_EQ(result.violations[0].invariant, "world_stood");
+  EXPECT_THAT(result.violations[0].words, HasSubstr("12.0 s to the end; 1 of the faults"));
+}
+
+// Violations were dated by the world's time, which lags, and followed other faults.
+TEST_F(SoakVerdictTest, AFaultOfTheWorldIsDatedByWhenItStartedHere) {
+  faults::Fault off;
+  off.rule = "deaf";
+  off.kind = faults::Kind::kSonarOff;
+  off.at_s = 20;
+  off.for_s = 2;
+  off.target.vehicle = kTwo;
+  schedule_.push_back(off);
+  seen_.started_at = seconds(3);
+  seen_.lasted_s = 90;
+  seen_.courses[0].began = seen_.courses[0].ended = seconds(13);
+  Noticed() = milliseconds(13150);
+  seen_.courses.push_back({.began = seconds(48), .ended = seconds(50)});
+  const SoakResult result = Judged();
+  EXPECT_EQ(result.faults[1].at_s, 20);
+  EXPECT_EQ(result.faults[1].observed_s, 45);
+  ASSERT_THAT(result.violations, SizeIs(1));
+  EXPECT_EQ(result.violations[0].time_s, 45);
+  EXPECT_EQ(result.violations[0].fault, "deaf#0");
+  seen_.courses[1] = {};
+  EXPECT_FALSE(Judged().faults[1].observed_s);
+}
+
+TEST_F(SoakVerdictTest, OneThatEndsBeforeItsLastFaultHasNotHealed) {
+  seen_.faults_outlasted_it = true;
+  EXPECT_EQ(Judged().violations.at(0).invariant, "healing");
 }
 
 TEST_F(SoakVerdictTest, TellsOfABrokenInvariantWithTheFaultBehindIt) {
@@ -268,6 +328,68 @@ TEST_F(SoakVerdictTest, SaysThatItWasInterruptedAndFailsIfSomethingHadBrokenBefo
   EXPECT_EQ(Judged().verdict, SoakVerdict::kInterrupted);
   seen_.courses[0].effect.clear();
   EXPECT_EQ(Judged().verdict, SoakVerdict::kFailed);
+}
+
+// Ctrl-C made FAILED of INTERRUPTED: the order of the fault had no time to take effect.
+TEST_F(SoakVerdictTest, AFaultThatAnInterruptCutsOffIsNotMissed) {
+  seen_.interrupted = true;
+  seen_.courses[0].effect.clear();
+  Noticed().reset();
+  seen_.lasted_s = 10.1;
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kInterrupted) << "killed just before";
+  seen_.lasted_s = 20.1;
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kFailed);
+  schedule_[0].kind = faults::Kind::kPause;
+  schedule_[0].for_s = 20;
+  seen_.courses[0].ended = seconds(30);
+  seen_.lasted_s = 30.1;
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kInterrupted) << "ended just before";
+  seen_.lasted_s = 60;
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kFailed);
+  seen_.interrupted = false;
+  seen_.courses[0].cut_off = true;
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kPassed) << "the soak ended before it";
+}
+
+TEST_F(SoakVerdictTest, JudgesOneThatIsShorterThanItsTurn) {
+  schedule_[0].kind = faults::Kind::kLoss;
+  schedule_[0].for_s = 0.2;
+  seen_.courses[0].effect.clear();
+  seen_.courses[0].ended = seen_.courses[0].began;
+  ASSERT_THAT(Judged().violations, SizeIs(1));
+  EXPECT_EQ(Judged().violations[0].invariant, "effect");
+}
+
+// Of a pause of 0.8 s that started 0.5 s late too little was left to be noticed.
+TEST_F(SoakVerdictTest, LeavesOutOneThatStartedTooLateToLast) {
+  schedule_[0].kind = faults::Kind::kLoss;
+  schedule_[0].for_s = 0.8;
+  seen_.courses[0].effect.clear();
+  const SteadyTime planned = seen_.started_at + FromSeconds(schedule_[0].at_s);
+  seen_.courses[0].ended = planned + FromSeconds(0.8);
+  seen_.courses[0].began = planned + FromSeconds(0.05);
+  EXPECT_THAT(Judged().violations, SizeIs(1));
+  seen_.courses[0].began = planned + FromSeconds(0.5);
+  EXPECT_THAT(Judged().violations, IsEmpty());
+}
+
+// It had had its effect, and the vehicle drove on with the other set.
+TEST_F(SoakVerdictTest, FailsWhereAFaultWasNotTakenBack) {
+  seen_.courses[0].failure = "the order back ended with exit code 1: no answer";
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kPassed);
+  seen_.courses[0].not_undone = true;
+  const SoakResult result = Judged();
+  EXPECT_EQ(result.verdict, SoakVerdict::kFailed);
+  ASSERT_THAT(result.violations, SizeIs(1));
+  EXPECT_EQ(result.violations[0].invariant, "not_undone");
+  EXPECT_THAT(result.violations[0].words, HasSubstr("no answer"));
+}
+
+TEST_F(SoakVerdictTest, CountsThePlannedRestartsThatCame) {
+  schedule_[0].kind = faults::Kind::kRestart;
+  schedule_.push_back(schedule_[0]);
+  seen_.courses.push_back({});
+  EXPECT_EQ(Judged().restarts_planned, 1U);
 }
 
 TEST(ExpectedOf, IsASilenceThatLastsLongerThanItsPromise) {

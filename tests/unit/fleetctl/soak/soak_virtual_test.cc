@@ -17,6 +17,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 faults::Fault Planned(faults::Kind kind, double at_s, double for_s, std::uint32_t vehicle) {
   faults::Fault fault;
@@ -38,9 +39,7 @@ class SoakVirtualTest : public testing::Test {
   SoakResult Soak() const {
     const SoakSeen seen = RunSoakVirtually(scenario_, schedule_, PhasesOf(90, 6));
     SoakResult result;
-    EvaluateSoak(
-        {seen, schedule_, {}, [](SteadyTime, SteadyTime) { return Nanoseconds{0}; }, false},
-        &result);
+    EvaluateSoak({seen, schedule_, {}, false}, &result);
     return result;
   }
 
@@ -125,8 +124,10 @@ TEST_F(SoakVirtualTest, AVehicleThatNeverDrivesAgainFailsIt) {
   // Blind beyond the end of the run: it is never healed.
   schedule_[0].for_s = 500;
   schedule_.push_back(Planned(faults::Kind::kPause, 21, 0.2, 3));
-  const SoakSeen seen = RunSoakVirtually(scenario_, schedule_, PhasesOf(90, 6));
-  EXPECT_TRUE(seen.healing.empty()) << "the last fault is not over";
+  const SoakResult result = Soak();
+  EXPECT_EQ(result.verdict, SoakVerdict::kFailed);
+  ASSERT_THAT(result.violations, SizeIs(1));
+  EXPECT_EQ(result.violations[0].invariant, "healing") << "the last fault is not over";
 }
 
 TEST_F(SoakVirtualTest, PlacesAreFilledInTheOrderInWhichTheyStand) {

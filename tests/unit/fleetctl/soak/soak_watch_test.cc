@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "services/fleetctl/soak/soak_verdict.h"
+
 namespace giveway::fleetctl {
 namespace {
 
@@ -9,6 +11,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 constexpr VehicleId kOne{1};
 constexpr VehicleId kTwo{2};
@@ -54,6 +57,36 @@ TEST_F(SoakWatchTest, HasTheHeapOfAFreshStatusThatSaysIt) {
   EXPECT_EQ(watch_.HeapOf(kOne, seconds(3)), 4096);
   EXPECT_EQ(watch_.HeapOf(kOne, seconds(3) + milliseconds(1)), std::nullopt);
   EXPECT_EQ(watch_.HeapOf(kTwo, seconds(2)), std::nullopt);
+}
+
+// A corruption of 2 % of the packets that a cut kept away, all but ten, was said to have no effect.
+TEST(SoakWatch, AFaultThatMetTooFewPacketsToActOnIsNotOneWithoutEffect) {
+  const auto why = [](faults::Kind kind, double share, std::uint64_t packets, std::uint64_t cut) {
+    faults::Schedule schedule{On(kTwo, kind, 2)};
+    schedule[0].parameters.probability = share;
+    SoakWatch watch({kOne, kTwo}, schedule);
+    const auto publish = [&](SteadyTime now) {
+      VehicleStatus status = Driving(kTwo);
+      if (now > seconds(2)) status.impaired = {.packets = packets, .dropped_blackout = cut};
+      link::Observed observed;
+      observed.statuses.push_back(status);
+      watch.Fold(observed, now);
+    };
+    publish(seconds(1));
+    watch.NoteBegin(0, seconds(2));
+    watch.NoteEnd(0, seconds(4));
+    publish(seconds(4) + milliseconds(100));
+    EXPECT_EQ(watch.Courses()[0].effect, "");
+    return watch.Courses()[0].met_nothing;
+  };
+  EXPECT_EQ(why(faults::Kind::kCorrupt, 0.02, 1000, 990),
+            "it met 10 packets, and acts on a share of 0.02");
+  EXPECT_EQ(why(faults::Kind::kCorrupt, 0.02, 1000, 0), "");
+  EXPECT_EQ(why(faults::Kind::kLoss, 0.3, 1000, 990),
+            "it met 10 packets, and acts on a share of 0.3");
+  EXPECT_EQ(why(faults::Kind::kLoss, 0.3, 1000, 900), "");
+  EXPECT_NE(why(faults::Kind::kDelay, 0, 1000, 1000), "");
+  EXPECT_EQ(why(faults::Kind::kDelay, 0, 1000, 999), "");
 }
 
 TEST(SoakWatch, OneIsWellThatDrivesOrStandsAsTrafficHasIt) {
@@ -111,6 +144,19 @@ TEST_F(SoakWatchTest, AFaultIsOverForItsVictimWhenThatIsWellAgain) {
   EXPECT_FALSE(watch_.Courses()[0].recovered) << "the other one drives";
   Publish(Driving(kOne), milliseconds(12700));
   EXPECT_EQ(watch_.Courses()[0].recovered, milliseconds(12700));
+}
+
+TEST_F(SoakWatchTest, ALaterAttemptSettlesThatAFaultWasNotUndone) {
+  watch_.NoteBegin(0, seconds(10));
+  watch_.NoteEffect(0, "another set in effect");
+  watch_.NoteNotUndone(0, "no answer", false);
+  EXPECT_TRUE(watch_.Courses()[0].not_undone);
+  watch_.NoteNotUndone(0, "it is gone", true);
+  EXPECT_FALSE(watch_.Courses()[0].not_undone);
+  watch_.NoteNotUndone(0, "no answer", false);
+  watch_.AddToEffect(0, ", and its own again");
+  EXPECT_FALSE(watch_.Courses()[0].not_undone);
+  EXPECT_THAT(watch_.Courses()[0].failure, IsEmpty());
 }
 
 TEST_F(SoakWatchTest, ACutIsNotSeenByWhatIsLostForOtherCauses) {
@@ -288,6 +334,28 @@ TEST_F(SoakWatchTest, ACounterThatRisesLongAfterIsNotItsEffect) {
   status.impaired.dropped_loss = 1;
   Publish(status, seconds(20));
   EXPECT_EQ(watch_.Courses()[1].effect, "");
+}
+
+// The verdict came when the monitor of pauses had forgotten those of ten minutes ago.
+TEST_F(SoakWatchTest, TheMachinesPauseIsNotedWhileItIsKnown) {
+  Limits limits;
+  limits.beacon_period = milliseconds(50);
+  limits.deadline = milliseconds(150);
+  std::vector<SteadyTime> asked;
+  const auto longest = [&](SteadyTime from, SteadyTime to) {
+    asked.insert(asked.end(), {from, to});
+    return asked.size() == 2 ? milliseconds(500) : milliseconds(0);
+  };
+  watch_.NoteBegin(0, seconds(10));
+  const SteadyTime latest = LatestReport(seconds(10), ExpectedOf(schedule_[0], limits).at(0));
+  watch_.NotePauses(limits, latest, longest);
+  EXPECT_THAT(asked, IsEmpty()) << "a pause may not be over";
+  watch_.NotePauses(limits, latest + seconds(1), longest);
+  watch_.NotePauses(limits, latest + seconds(2), longest);
+  EXPECT_THAT(asked, ElementsAre(seconds(10), latest));
+  const auto& paused = watch_.Courses()[0].paused;
+  EXPECT_EQ(paused[static_cast<std::size_t>(Mechanism::kDeadline)], milliseconds(500));
+  EXPECT_FALSE(paused[static_cast<std::size_t>(Mechanism::kLiveliness)]) << "off in this set";
 }
 
 TEST_F(SoakWatchTest, AFailureIsSettledByAnEffectAndOneToUndoItByWhatFollows) {

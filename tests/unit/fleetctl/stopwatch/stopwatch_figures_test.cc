@@ -13,9 +13,11 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 // One trial, one watcher; everything that must see it does, at its promise.
 Trial PerfectTrial(Fault fault, const Limits& limits) {
@@ -129,12 +131,37 @@ TEST(StopwatchFigures, FastDds3IsNotAccusedOfMasking) {
   EXPECT_EQ(Findings(report).size(), 1U);
 }
 
-TEST(StopwatchFigures, TrialsThatCouldNotBeMadeKeepNoPromise) {
+// Regression: they were called broken promises.
+TEST(StopwatchFigures, TrialsThatCouldNotBeMadeNeitherKeepAPromiseNorBreakOne) {
   StopwatchReport report = ReportOf({PerfectTrial(Fault::kKill, Shipped())}, Shipped());
   report.problems.push_back("cut: interrupted");
   EXPECT_FALSE(report.Kept());
-  EXPECT_THAT(StopwatchText(report), HasSubstr("BROKEN cut: interrupted"));
-  EXPECT_THAT(StopwatchJson(report), HasSubstr(R"("verdict":"broken")"));
+  EXPECT_THAT(StopwatchText(report),
+              AllOf(HasSubstr("not tried: cut: interrupted"),
+                    HasSubstr("not every trial could be made after"), Not(HasSubstr("BROKEN"))));
+  EXPECT_THAT(StopwatchJson(report), AllOf(HasSubstr(R"("verdict":"incomplete")"),
+                                           HasSubstr(R"("not_tried":["cut: interrupted"])"),
+                                           HasSubstr(R"("findings":[])")));
+}
+
+// Regression: with no trial at all promises were called broken, and the exit code was 1.
+TEST(StopwatchFigures, WithoutATrialNothingIsKnown) {
+  StopwatchReport report = ReportOf({}, Shipped());
+  report.problems.push_back("kill: no vehicle came up");
+  EXPECT_EQ(report.Verdict(), StopwatchVerdict::kNotRun);
+  EXPECT_THAT(StopwatchText(report), HasSubstr("NOT RUN: no trial could be made"));
+  EXPECT_THAT(StopwatchJson(report), HasSubstr(R"("verdict":"not_run")"));
+  report.interrupted = true;
+  EXPECT_EQ(report.Verdict(), StopwatchVerdict::kIncomplete);
+}
+
+TEST(StopwatchFigures, ABrokenPromiseIsOneWhateverElseCouldNotBeTried) {
+  Trial trial = PerfectTrial(Fault::kHung, Shipped());
+  trial.sightings.push_back({Mechanism::kLease, seconds(10), milliseconds(2)});
+  StopwatchReport report = ReportOf({trial}, Shipped());
+  report.problems.push_back("cut: no vehicle came up");
+  report.interrupted = true;
+  EXPECT_EQ(report.Verdict(), StopwatchVerdict::kBroken);
 }
 
 }  // namespace

@@ -177,6 +177,21 @@ TEST_F(MadeProc, WhatItWasToldIsOfTheCommandLineElseOfTheEnvironment) {
   EXPECT_TRUE(ParticipantNumber(*situation, qos::Policy::kPortBase));
 }
 
+// Regression: they were left out, and a fleet that is found through them was judged as one that is
+// found by multicast.
+TEST_F(MadeProc, DiscoveryServersAreOfTheCommandLineElseOfTheEnvironment) {
+  Write("42/environ", Zeros({"GIVEWAY_DISCOVERY_SERVER=192.0.2.1,192.0.2.3:7000"}));
+  const auto situation = ReadSituation(folder_, 42);
+  ASSERT_TRUE(situation);
+  EXPECT_EQ(ToText(situation->launch.discovery_servers), "192.0.2.1:11811,192.0.2.3:7000");
+  EXPECT_EQ(DiscoveryProtocol(*situation), qos::kClient);
+  Write("44/cmdline", Zeros({"giveway-world", "--domain", "8", "--discovery-server", "a:b:c"}));
+  const auto world = ReadSituation(folder_, 44);
+  ASSERT_TRUE(world);
+  EXPECT_TRUE(world->launch.discovery_servers.empty());
+  EXPECT_THAT(world->not_known, Contains("discovery servers: a:b:c"));
+}
+
 TEST_F(MadeProc, ProfilesMayBeNamedAsAShippedSet) {
   Write("42/cmdline", Zeros({"/opt/bin/giveway-vehicle", "--domain", "7", "--qos", "radio"}));
   Write("42/environ", Zeros({"GIVEWAY_CONFIG_DIR=/etc/giveway"}));
@@ -185,6 +200,36 @@ TEST_F(MadeProc, ProfilesMayBeNamedAsAShippedSet) {
   ASSERT_TRUE(situation);
   EXPECT_EQ(situation->launch.qos_file, "/etc/giveway/qos/radio.xml");
   EXPECT_TRUE(situation->profiles);
+}
+
+// Regression: both were looked for in the folder, and not known.
+TEST_F(MadeProc, AFolderWhereItRunsDoesNotHideWhatIsShippedUnderItsName) {
+  Write("42/cmdline", Zeros({"/opt/bin/giveway-vehicle", "--domain", "7", "--qos", "radio",
+                             "--scenario", "town"}));
+  Write("42/environ", Zeros({"GIVEWAY_CONFIG_DIR=/etc/giveway"}));
+  Write("root/etc/giveway/qos/radio.xml", "<dds><profiles/></dds>");
+  Write("root/etc/giveway/scenarios/town.textproto", "no scenario");
+  for (const char* const name : {"radio", "town"}) fs::create_directories(folder_ / "work" / name);
+  const auto situation = ReadSituation(folder_, 42);
+  ASSERT_TRUE(situation);
+  EXPECT_EQ(situation->launch.qos_file, "/etc/giveway/qos/radio.xml");
+  EXPECT_THAT(situation->not_known, Contains(HasSubstr("scenarios/town.textproto")));
+}
+
+// Regression: a switch with a value was taken for off, and by the process itself for on.
+TEST_F(MadeProc, ASwitchMayHaveAValue) {
+  const auto partition_free = [this](const std::vector<std::string>& flags) {
+    std::vector<std::string> words{"giveway-vehicle", "--domain", "7"};
+    words.insert(words.end(), flags.begin(), flags.end());
+    Write("42/cmdline", Zeros(words));
+    return ReadSituation(folder_, 42)->launch.partition_free;
+  };
+  EXPECT_TRUE(partition_free({"--partition-free"}));
+  EXPECT_TRUE(partition_free({"--partition-free=true"}));
+  EXPECT_FALSE(partition_free({"--partition-free", "--partition-free=0"}));
+  Write("42/environ", Zeros({"GIVEWAY_PARTITION_FREE=1"}));
+  EXPECT_TRUE(partition_free({}));
+  EXPECT_FALSE(partition_free({"--partition-free=false"}));
 }
 
 TEST_F(MadeProc, WhatTheSystemGivesItIsReadFactByFact) {
@@ -270,6 +315,15 @@ TEST(OtherFleetsTest, AreNamedWithWhatChoosesThem) {
                                 HasSubstr("choose it by --interface eth0")),
                           AllOf(HasSubstr("network namespace 200 (processes pid:5 pid:6)"),
                                 HasSubstr("nsenter"))));
+}
+
+// Regression: the interface that another user wrote was printed as it is.
+TEST(OtherFleetsTest, TheirInterfaceDoesNotCommandTheTerminal) {
+  std::vector<FleetMember> members;
+  members.push_back(
+      {.pid = 1, .domain = 7, .interface = "\x1b[2J\xc2\x9b", .network_namespace = 100});
+  EXPECT_THAT(OtherFleets(members, 7, "127.0.0.1", 100),
+              ElementsAre(HasSubstr("choose it by --interface ?[2J?")));
 }
 
 }  // namespace

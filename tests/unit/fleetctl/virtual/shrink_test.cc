@@ -2,6 +2,7 @@
 // invariant.
 #include "services/fleetctl/virtual/shrink.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -188,6 +189,26 @@ TEST(Shrinking, KeepsTheInvariantThatIsAskedFor) {
   ASSERT_TRUE(shrunk);
   EXPECT_EQ(shrunk->violation.invariant, sim::Invariant::kClearance);
   EXPECT_FALSE(Shrink(HeadOnAmongOthers(), kGoOn, sim::Invariant::kRedLight));
+}
+
+// Regression: by when vehicles are due depended on the scenario's name, which shrinking changes:
+// what it wrote for `delay` did not break that.
+TEST(Shrinking, WhatIsLeftOfADelayIsLateUnderAnyName) {
+  VirtualCase made = CaseMaker({.scenario = "convoy", .vehicles = WholeRange{3, 3}}).Make(1);
+  ASSERT_TRUE(made.plan.through_m);
+  const Vec2 goal_world = made.scenario.vehicles[0].goal.at_world;
+  const Vec2 across = Left(Forward(made.scenario.vehicles[0].start_world));
+  const Vec2 before_world = goal_world - 2 * Forward(made.scenario.vehicles[0].start_world);
+  made.scenario.walls = {{before_world - 40 * across, before_world + 40 * across}};
+  const auto shrunk = Shrink(made, kGoOn, sim::Invariant::kDelay);
+  ASSERT_TRUE(shrunk);
+  EXPECT_EQ(shrunk->made.scenario.vehicles.size(), 1U);
+  EXPECT_EQ(shrunk->made.plan.through_m, made.plan.through_m);
+  Scenario renamed = shrunk->made.scenario;
+  renamed.name = "convoy_1";
+  const auto outcome = sim::RunVirtually(renamed, shrunk->made.plan);
+  EXPECT_EQ(outcome.violations[static_cast<std::size_t>(sim::Invariant::kDelay)], 1U);
+  EXPECT_THAT(ReplayFlags(shrunk->made, "f"), testing::HasSubstr(" --through 2 --judge delay"));
 }
 
 TEST(Shrinking, StopsWhenItIsToldTo) {

@@ -24,6 +24,17 @@ TEST(VirtualRecording, APathThatCannotBeWrittenIsRefusedBeforeTheRun) {
   std::filesystem::remove(taken);
 }
 
+TEST(VirtualRecording, OneThatIsNotClosedLeavesNoFile) {
+  const std::string path = ::testing::TempDir() + "virtual_mcap_half.mcap";
+  {
+    const VirtualRecording recording(path);
+    EXPECT_TRUE(std::filesystem::exists(path));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
+  CheckRecordable(path);
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
 TEST(VirtualRecording, ARunWithoutSamplesLeavesAFile) {
   const std::string path = ::testing::TempDir() + "virtual_mcap_empty.mcap";
   VirtualRecording recording(path);

@@ -88,6 +88,14 @@ const std::vector<Case>& Cases() {
        }},
       {"discovery_off", [](Pair& pair) { pair.speaker.profiles = SetWith(Discovery("NONE")); }},
       {"discovery_apart", [](Pair& pair) { pair.hearer.profiles = SetWith(Discovery("CLIENT")); }},
+      {"discovery_apart",
+       [](Pair& pair) { pair.speaker.launch.discovery_servers = {{"192.0.2.1"}}; }},
+      {"discovery_by_server",
+       [](Pair& pair) {
+         pair.hearer.launch.discovery_servers = {{"192.0.2.1"}};
+         pair.speaker.profiles = SetWith(Discovery("CLIENT"));
+       },
+       Outlook::kNotKnown, Outlook::kNotKnown},
       {"discovery_by_server",
        [](Pair& pair) {
          pair.hearer.profiles = pair.speaker.profiles = SetWith(Discovery("CLIENT"));

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "tests/link/fleet.h"
-#include "tests/link/foreign.h"
+#include "tests/link/foreign/foreign.h"
 
 namespace giveway::test {
 namespace {
@@ -22,7 +22,7 @@ class ForeignReader : public ::testing::Test {
  protected:
   // True once a sample came of which `is_it` is true; vehicle 7 sends meanwhile.
   bool Hears(dds_entity_t reader, const std::function<bool(const ForeignSample&)>& is_it,
-             milliseconds deadline = std::chrono::seconds(20)) {
+             milliseconds deadline = std::chrono::seconds(60)) {
     return Eventually(
         [&] {
           vehicle_.Send();

@@ -1,4 +1,4 @@
-#include "tests/link/foreign.h"
+#include "tests/link/foreign/foreign.h"
 
 #include <array>
 #include <cstddef>

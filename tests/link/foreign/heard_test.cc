@@ -7,7 +7,7 @@
 
 #include "services/link/fastdds/packets_of_process.h"
 #include "tests/link/fleet.h"
-#include "tests/link/foreign.h"
+#include "tests/link/foreign/foreign.h"
 
 namespace giveway::test {
 namespace {
