@@ -2,11 +2,13 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <fstream>
 #include <functional>
+#include <thread>
 
 #include "services/link/observer_link.h"
 #include "services/link/world_link.h"
@@ -122,28 +124,65 @@ TEST(Rejoining, TheEntryThatLetAVehicleInIsNotToldAgainAndALaterOneOnce) {
   EXPECT_TRUE(vehicle.TakeRoster(kSession).has_value()) << "Take and TakeRoster each report it";
 }
 
-// The entry that the vehicle receives meanwhile.
-std::optional<RosterEntry> EntryWithin(milliseconds duration, link::VehicleLink& vehicle,
-                                       const std::function<void()>& meanwhile) {
-  std::optional<RosterEntry> received;
-  Repeat(duration, [&] {
-    meanwhile();
-    if (const auto entry = vehicle.Take(SteadyTime{0}).inputs.roster) received = entry;
-  });
-  return received;
+// Speaks to vehicle 7 as a world does, at every tick, whatever the test waits for. Nothing else may
+// use the link meanwhile.
+class Speaking {
+ public:
+  Speaking(link::WorldLink& world, std::uint32_t epoch)
+      : thread_([&world, epoch](const std::stop_token& stop) {
+          while (!stop.stop_requested()) {
+            world.SendScan(ScanOf(epoch));
+            std::this_thread::sleep_for(milliseconds(20));
+          }
+        }) {}
+
+ private:
+  std::jthread thread_;
+};
+
+bool HearsItsWorld(link::VehicleLink& vehicle) {
+  return Eventually([&] { return vehicle.Take(SteadyTime{0}).inputs.scan.has_value(); });
 }
+
+// What a vehicle that has just heard its world hears in that time.
+struct Heard {
+  std::optional<RosterEntry> entry;
+  std::chrono::nanoseconds longest_silence{0};  // of its world
+};
+Heard HeardWithin(milliseconds duration, link::VehicleLink& vehicle) {
+  Heard heard;
+  auto spoke = std::chrono::steady_clock::now();
+  Repeat(duration, [&] {
+    const Inputs inputs = vehicle.Take(SteadyTime{0}).inputs;
+    if (inputs.roster) heard.entry = inputs.roster;
+    const auto now = std::chrono::steady_clock::now();
+    heard.longest_silence = std::max<std::chrono::nanoseconds>(heard.longest_silence, now - spoke);
+    if (inputs.scan) spoke = now;
+  });
+  return heard;
+}
+
+// A world that the machine keeps from speaking is silent, and another one rightly believed.
+#define SKIP_IF_SILENT(heard)                           \
+  if ((heard).longest_silence > milliseconds(900)) {    \
+    GTEST_SKIP() << "the machine stopped for a second"; \
+  }
 
 TEST(Rejoining, ASecondWorldIsNotBelievedWhileTheFirstLivesAndIsOnceThatHasLeft) {
   const DomainLock domain;
   link::VehicleLink vehicle(OptionsIn(domain));
   auto first = std::make_unique<link::WorldLink>(OptionsIn(domain));
   JoinAsSeven(vehicle, *first);
+  std::optional<Speaking> speaking(std::in_place, *first, 1);
   link::WorldLink second(OptionsIn(domain));
   ASSERT_TRUE(AwaitJoin(second).has_value());
+  ASSERT_TRUE(HearsItsWorld(vehicle));
   second.SendRoster(Accepted(kSession, kSeven, 2));
-  const auto speak = [&] { first->SendScan(ScanOf(1)); };
-  EXPECT_FALSE(EntryWithin(milliseconds(2500), vehicle, speak).has_value());
+  const Heard heard = HeardWithin(milliseconds(2500), vehicle);
+  SKIP_IF_SILENT(heard);
+  EXPECT_FALSE(heard.entry.has_value());
   EXPECT_EQ(vehicle.Counters().refused.old_world_entries, 1U);
+  speaking.reset();
   first.reset();
   std::optional<RosterEntry> received;
   ASSERT_TRUE(Eventually([&] {
@@ -162,16 +201,18 @@ TEST(Rejoining, AWorldThatFellSilentIsFollowedByTheNextAndNoLongerBelieved) {
   ASSERT_TRUE(AwaitJoin(second).has_value());
   second.OpenVehicle(kSeven, RobotModel{});
   second.SendRoster(Accepted(kSession, kSeven, 2));
-  const auto speak = [&] { second.SendScan(ScanOf(2)); };
+  const Speaking speaking(second, 2);
   std::optional<RosterEntry> received;
   ASSERT_TRUE(Eventually([&] {
-    speak();
     received = vehicle.Take(SteadyTime{0}).inputs.roster;
     return received.has_value();
   }));
   EXPECT_EQ(received->epoch, WorldEpoch{2});
+  ASSERT_TRUE(HearsItsWorld(vehicle));
   first.SendRoster(Accepted(kSession, kSeven, 3));
-  EXPECT_FALSE(EntryWithin(milliseconds(1500), vehicle, speak).has_value());
+  const Heard heard = HeardWithin(milliseconds(1500), vehicle);
+  SKIP_IF_SILENT(heard);
+  EXPECT_FALSE(heard.entry.has_value());
 }
 
 TEST(Rejoining, AnEntryThatCannotBeBelievedIsRefusedByFieldAndChangesNothing) {

@@ -177,7 +177,7 @@ accounted() {
 # The soak whose supervisor was killed, while one of its vehicles was stopped, leaves no process behind,
 # resumes with the rest of its list, and says so.
 killed() {
-  local supervisor children pid stopped="" code=0 report=$SCRATCH/killed
+  local supervisor children pid first stopped="" code=0 report=$SCRATCH/killed
   rm -rf "$report" "$SCRATCH/killed.log"
   "$FLEETCTL" soak patrol --vehicles 2 --faults "$SCRATCH/rest.textproto" --duration 45 --report "$report" \
     >/dev/null 2>"$SCRATCH/killed.log" &
@@ -189,7 +189,11 @@ killed() {
     [[ -s $report/so_far.json ]] && break
     sleep 0.1
   done
-  sleep 11 # the second time it is saved
+  first=$(stat -c %i "$report/so_far.json") || fail "what was seen so far is not saved"
+  for _ in $(seq 300); do # until it is saved again, as another file
+    [[ $(stat -c %i "$report/so_far.json" 2>/dev/null || echo "$first") != "$first" ]] && break
+    sleep 0.1
+  done
   for _ in $(seq 100); do
     for pid in "${children[@]}"; do grep -q '^State:.T' "/proc/$pid/status" && stopped=$pid; done
     [[ -z $stopped ]] || break

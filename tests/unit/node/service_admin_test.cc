@@ -125,6 +125,7 @@ TEST(ServiceAdmin, HoldsOrdersAgainstTheParticipantsOfOneHostAtAStart) {
 
 // Regression: without a descriptor left a service that was to restart itself ended.
 TEST(ServiceAdmin, ComesBackWithWhatItsCommandLineSaysWhereItCanHoldNothing) {
+  if (!test::NoDescriptors::kErrorsCanBeThrown) GTEST_SKIP() << "the sanitizer needs descriptors";
   KeepingLink link({});
   link::LinkOptions options;
   options.qos = {HoldText("earlier.xml", Default()), Default()};

@@ -50,6 +50,7 @@ TEST(Restart, LeavesOnlyHeldTextsOpenToTheNextProcessImage) {
 
 // Regression: without a descriptor left a service that was to restart itself ended.
 TEST(Restart, LeavesTheFlagOfATextThatItCannotHoldAsItIs) {
+  if (!test::NoDescriptors::kErrorsCanBeThrown) GTEST_SKIP() << "the sanitizer needs descriptors";
   const std::vector<std::string> before = OwnArguments();
   NewFlags flags{{"--resume", ""}};
   std::vector<std::string> arguments;

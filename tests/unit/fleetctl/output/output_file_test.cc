@@ -3,11 +3,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <functional>
 #include <string>
 
+#include "tests/support/no_descriptors.h"
 #include "tests/unit/config/scenario_files.h"
 
 namespace giveway::fleetctl {
@@ -15,22 +15,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-
-// No file can be opened while it lives.
-class NoDescriptors {
- public:
-  NoDescriptors() {
-    ::getrlimit(RLIMIT_NOFILE, &before_);
-    const rlimit none{0, before_.rlim_max};
-    ::setrlimit(RLIMIT_NOFILE, &none);
-  }
-  ~NoDescriptors() { ::setrlimit(RLIMIT_NOFILE, &before_); }
-  NoDescriptors(const NoDescriptors&) = delete;
-  NoDescriptors& operator=(const NoDescriptors&) = delete;
-
- private:
-  rlimit before_{};
-};
 
 OutputError ErrorOf(const std::function<void()>& write) {
   try {
@@ -46,7 +30,7 @@ TEST(OutputFile, AFullDiskOrALimitMayPass) {
   const OutputError full = ErrorOf([] { WriteFile("/dev/full", "text"); });
   EXPECT_TRUE(full.MayPass());
   EXPECT_THAT(full.what(), HasSubstr("No space left on device; see to that disk or limit"));
-  const NoDescriptors none;
+  const test::NoDescriptors none;
   EXPECT_TRUE(ErrorOf([&] { CheckWritable(folder.Path() + "/result.json"); }).MayPass());
   EXPECT_TRUE(ErrorOf([&] { CheckFolder(folder.Path() + "/results"); }).MayPass());
   EXPECT_TRUE(ErrorOf([&] { WriteFile(folder.Path() + "/result.json", "text"); }).MayPass());
